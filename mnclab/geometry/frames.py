@@ -6,7 +6,7 @@ A frame maps local coordinates to outer ones: `outer = M @ (x, y, z, 1)`. Length
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import reduce
 from itertools import takewhile
 
@@ -136,20 +136,46 @@ class FrameChain:
         return twin
 
 
-# Tilted planes: the turn that spatial angles make, and where two rotary axes must stand for a direction of the tool.
-# A pair of axes is named with the one that carries the other first, seen from the workpiece: "CA" is t = Rz(C) Rx(A) ez. Angles
-# in rad.
+# Tilted planes: the turn that says where the axes of the tilted system lie, its columns; angles in rad.
 
-PAIRS = ("CA", "CB", "AB", "BA")
-ABOUT = {"A": "x", "B": "y", "C": "z"}
-SINGULAR = 1e-9  # a direction so near to the axis of the carrier does not say where that axis stands
-
-Angles = dict[str, float]
+SINGULAR = 1e-9  # directions so near to each other make no plane
 
 
 def spatial(a: float, b: float, c: float) -> Matrix:
     """The turn about the fixed axes X, then Y, then Z: its columns are the axes of the tilted system."""
     return turn(c, "z") @ turn(b, "y") @ turn(a, "x")
+
+
+def euler(precession: float, nutation: float, rotation: float) -> Matrix:
+    """The turn about Z, then about X and Z as they lie after it."""
+    return turn(precession, "z") @ turn(nutation, "x") @ turn(rotation, "z")
+
+
+def projected(about_y: float, about_x: float, rotation: float) -> Matrix:
+    """The plane whose traces in ZX and YZ lie X and Y turned about Y and about X; X lies along the first, turned in the plane."""
+    along = (math.cos(about_y), 0.0, -math.sin(about_y))
+    across = (0.0, math.cos(about_x), math.sin(about_x))
+    return along_and_normal(along, np.cross(along, across)) @ turn(rotation, "z")
+
+
+def along_and_normal(along: ArrayLike, normal: ArrayLike) -> Matrix:
+    """Z along a normal (3,), X along what of another vector (3,) lies square to it; both must have a length, and span a plane."""
+    z = np.asarray(normal, dtype=np.float64) / np.linalg.norm(normal)
+    x = np.asarray(along, dtype=np.float64) / np.linalg.norm(along)
+    x = x - (x @ z) * z
+    x = x / np.linalg.norm(x)
+    x = x - (x @ z) * z  # what a short one kept of z
+    x = x / np.linalg.norm(x)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.stack([x, np.cross(z, x), z], axis=1)
+    return matrix
+
+
+def spans(one: ArrayLike, other: ArrayLike) -> bool:
+    """Whether two vectors (3,) have a length, and not the same direction."""
+    a, b = (np.asarray(each, dtype=np.float64) for each in (one, other))
+    lengths = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return bool(lengths > 0 and np.linalg.norm(np.cross(a, b)) > SINGULAR * lengths)
 
 
 def angles_of(axes: ArrayLike) -> tuple[float, float, float]:
@@ -160,49 +186,3 @@ def angles_of(axes: ArrayLike) -> tuple[float, float, float]:
     if level < SINGULAR:
         return 0.0, math.atan2(-zx, level), math.atan2(-xy, yy)
     return math.atan2(zy, zz), math.atan2(-zx, level), math.atan2(yx, xx)
-
-
-def of_axes(pair: str, angles: Mapping[str, float]) -> Matrix:
-    """The turn that the two rotary axes make, the carrier first."""
-    outer, inner = pair[0], pair[1]
-    return turn(angles[outer], ABOUT[outer]) @ turn(angles[inner], ABOUT[inner])
-
-
-def direction(pair: str, angles: Mapping[str, float]) -> NDArray[np.float64]:
-    """The direction (3,) of the tool axis, from the tip to the spindle."""
-    return np.asarray(of_axes(pair, angles)[:3, 2])
-
-
-def positions(pair: str, tool_axis: ArrayLike, now: Mapping[str, float]) -> list[Angles]:
-    """Both ways to turn the tool axis into a direction (3,), each angle from -pi to pi; first the one with the inner axis from
-    0 to pi (or, where the carrier lies across the tool, within a quarter turn). An angle that is free stays as it is `now`.
-    """
-    x, y, z = np.asarray(tool_axis, dtype=np.float64) / np.linalg.norm(tool_axis)
-    outer, inner = pair[0], pair[1]
-    if outer == "C":
-        tilt = math.atan2(math.hypot(x, y), z)
-        free = math.hypot(x, y) < SINGULAR
-        swing = math.atan2(x, -y) if inner == "A" else math.atan2(y, x)
-        found = [(swing, tilt), (swing + math.pi, -tilt)]
-    else:
-        along, across = (x, -y) if inner == "B" else (-y, x)  # the axis of the carrier, and to its side
-        tilt = math.atan2(along, math.hypot(z, across))
-        free = math.hypot(z, across) < SINGULAR
-        swing = math.atan2(across, z)
-        found = [(swing, tilt), (swing + math.pi, math.pi - tilt)]
-    return [{outer: now[outer] if free else wrapped(one), inner: wrapped(two)} for one, two in found]
-
-
-def nearest(found: list[Angles], now: Mapping[str, float]) -> Angles:
-    """The positions with the shortest way of the axis that has the longest; the first of them where several are."""
-
-    def way(angles: Angles) -> float:
-        return round(max(abs(angle - now[axis]) for axis, angle in angles.items()), 12)
-
-    return min(found, key=way)
-
-
-def wrapped(angle: float) -> float:
-    """The same angle from -pi (left out) to pi; a rounding error beside -pi is pi."""
-    rest = math.remainder(angle, 2 * math.pi)
-    return math.pi if rest <= -math.pi + 1e-12 else rest

@@ -220,15 +220,7 @@ class Kinematics:
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
         now = np.broadcast_to(np.asarray(near, dtype=np.float64), d.shape)
         used = self.tilting(using)
-        # Axes that stand still turn what lies beyond them, seen from the part: the directions of the axes behind and the tool.
-        outer = np.broadcast_to(np.eye(3), (len(d), 3, 3))
-        lines = []
-        for axis in self.sequence:
-            if axis in used:
-                lines.append(outer @ np.asarray(axis.direction))
-            else:
-                outer = outer @ axis.turns(now[:, axis.number])[:, :3, :3]
-        tool = outer[:, :, 2]
+        lines, tool = self._lines(used, now)
         first = now[:, used[0].number]
         pairs = _one(lines[0], tool, d, first) if len(used) == 1 else _two(lines[0], lines[1], tool, d, first)
         found = np.stack([now, now])
@@ -236,6 +228,23 @@ class Kinematics:
             found[..., axis.number] = [_nearest(axis, each, now[:, axis.number]) for each in angles]
         found[np.isnan(found).any(axis=2)] = np.nan
         return found
+
+    def free(self, direction: ArrayLike, near: ArrayLike, using: str | None = None) -> Axis | None:
+        """The axis that a direction (3,) on the part leaves free, since it lies along it; None where there is none."""
+        used, d = self.tilting(using), _rows(direction, 3, "direction")
+        lines, _ = self._lines(used, _rows(near, 3, "near"))
+        return used[0] if np.linalg.norm(np.cross(lines[0], d)) < FREE * np.linalg.norm(d) else None
+
+    def _lines(self, used: tuple[Axis, ...], now: Array) -> tuple[list[Array], Array]:
+        """The directions (n, 3) of the axes `used` and of the tool on the part, with those at zero and all others at `now`."""
+        outer = np.broadcast_to(np.eye(3), (len(now), 3, 3))  # what stands still turns what lies beyond it, seen from the part
+        lines = []
+        for axis in self.sequence:
+            if axis in used:
+                lines.append(outer @ np.asarray(axis.direction))
+            else:
+                outer = outer @ axis.turns(now[:, axis.number])[:, :3, :3]
+        return lines, outer[:, :, 2]
 
     def inverse(
         self, tip: ArrayLike, direction: ArrayLike, length: ArrayLike = 0.0, near: ArrayLike | None = None

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
-from mnclab.geometry.kinematics import NAMES, Kinematics
+from mnclab.geometry.kinematics import NAMES, Kinematics, shorter
 from mnclab.machine.coordinates import STILL, Angles, angles, set_angles
 from mnclab.machine.state import Place
 from mnclab.path.limits import NOISE, Beyond
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 TOLERANCE = 0.01  # mm, how far the tip may be from the rows of a move with rotary axes, if nothing else is said
 MOST = 100_000  # rows of one move
 SAME = 1e-12  # rad
+SQUARE = 2e-4  # rad, by which a tool may lean that stands square to its plane: angles are typed with three decimals
 
 
 def turning_feed(m: Machine) -> float:
@@ -66,6 +67,15 @@ def tip_below(m: Machine, place: Place) -> Place:
     return x, y, z
 
 
+def begin(m: Machine) -> None:
+    """A machine with kinematics stands with its spindle reference at the start of the setup, its rotary axes at home."""
+    kinematics = chain(m)
+    x, y, z = kinematics.tips(np.array(m.setup.start, dtype=float), np.array(m.rotary), m.tool.effective_length).tolist()
+    m.tip = x, y, z
+    m.recorder.start = np.array(m.tip)
+    stand(m)
+
+
 def chain(m: Machine) -> Kinematics:
     """The kinematics of a machine that has one."""
     assert m.tables.kinematics is not None
@@ -76,6 +86,18 @@ def direction(m: Machine) -> Array:
     """The direction (3,) of the tool on the part, from the tip to the spindle; along Z without a kinematics."""
     kinematics = m.tables.kinematics
     return np.array([0.0, 0.0, 1.0]) if kinematics is None else kinematics.orientation(np.array(m.rotary))[:, 2]
+
+
+def leaning(m: Machine) -> float:
+    """By how much the tool leans from Z of the active coordinates, degrees, 0 where that is too little to count: as the axes
+    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it."""
+    if m.tables.kinematics is None:
+        return 0.0
+    tool, found = direction(m), 0.0
+    for frame in (m.matrix, m.frames.matrix) if m.reckoned is not None and any(m.reckoned) else (m.matrix,):
+        up = frame[:3, 2]
+        found = max(found, math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool)))
+    return math.degrees(found) if found > SQUARE else 0.0
 
 
 def reckon(m: Machine, with_axes: Place | None) -> None:
@@ -100,7 +122,10 @@ def stand(m: Machine) -> None:
 
 def _turned(m: Machine) -> Array | None:
     kinematics, reckoned = m.tables.kinematics, m.reckoned
-    if kinematics is None or reckoned is None or np.abs(np.subtract(m.rotary, reckoned)).max() < SAME:
+    if kinematics is None or reckoned is None:
+        return None
+    apart = np.subtract(m.rotary, reckoned)
+    if np.abs(apart - math.tau * np.round(apart / math.tau)).max() < SAME:
         return None
     now, then = kinematics.carried(np.array([m.rotary, reckoned]), m.tool.effective_length)
     return np.asarray(now @ frames.inverse(then))
@@ -115,68 +140,78 @@ def change_length(m: Machine, length: float) -> None:
     m.tip = x, y, z
 
 
-def turn_axes(m: Machine, to: Angles, f: float | None, word: Word | None = None) -> None:
+def turn_axes(
+    m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None, most: float = math.inf,
+) -> None:  # fmt: skip
     """Turn to angles (degrees) while the linear axes stand, or the tip that is led; `f` is in degrees a minute, infinite at
-    rapid, None the modal feed.
+    rapid, None the modal feed. `below` and `most` are those of `swing`.
 
     The time of a rapid turn is not known: no limits of rotary axes are.
     """
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
     if m.tables.kinematics is not None:
-        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word)
+        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below, most=most)
         return
     set_angles(m, to)
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
     m.add_row(kind, m.tip, feed=math.radians(rate), time=60 * way / rate if kind == Kind.LINE else math.nan)
 
 
-def travel(m: Machine, to: Angles, point: Place | None, f: float | None, word: Word | None = None) -> None:
+def travel(
+    m: Machine, to: Angles, point: Place | None, f: float | None, word: Word | None = None,
+    most: float = math.inf, of_all: bool = False, in_plane: bool = False,
+) -> None:  # fmt: skip
     """Go to a point of the program (None: the linear axes stand, or the tip that is led) while the rotary axes turn to angles
     (degrees), by the kinematics of the machine, at `f` mm/min, infinite at rapid, None the modal feed.
 
     The feed is that of the tip where it is led, else that of the linear axes, as X Y Z go; where neither moves, that of the
-    rotary axis with the longest way.
+    rotary axis with the longest way. `of_all`: it counts along the ways of all axes together, mm and degrees. `most` and
+    `in_plane` are those of `swing`.
     """
     rate = m.feed_of(f, word)
     if math.isinf(rate):
-        return swing(m, to, point, math.inf, word)
+        return swing(m, to, point, math.inf, word, most=most, in_plane=in_plane)
     led = m.reckoned is None
     start, end = led_ends(m, point, 0.0) if led else linear_ends(m, chain(m), point)
     way = float(np.linalg.norm(end - start))
     if rate < 0:  # a time for the move
-        swing(m, to, point, -rate / 60, word)
+        swing(m, to, point, -rate / 60, word, most=most, in_plane=in_plane)
     elif way <= STILL:
-        turn_axes(m, to, f, word)
+        turn_axes(m, to, f, word, most=most)
         if point is not None:
             m.set_register(point)
+    elif of_all:
+        turned = math.dist(to, angles(m))
+        swing(m, to, point, math.hypot(way, turned) / rate, word, most=most, in_plane=in_plane)
     elif led:
-        swing(m, to, point, None, word, f=rate)
+        swing(m, to, point, None, word, f=rate, most=most, in_plane=in_plane)
     else:
         swing(m, to, point, way / rate, word)
 
 
 def swing(
-    m: Machine, to: Angles, point: Place | None, minutes: float | None, word: Word | None = None, below: float = 0.0,
-    f: float = math.inf,
+    m: Machine, to: Angles, point: Place | None, minutes: float | None, word: Word | None = None, below: float | None = None,
+    f: float = math.inf, most: float = math.inf, in_plane: bool = False,
 ) -> None:  # fmt: skip
     """Turn to angles (degrees) and go to a point of the program (None: stay) together: all axes run evenly, and rows are cut so
     fine that none leaves the way of the tip by more than the tolerance.
 
-    `minutes` the move takes, infinite at rapid; None: as long as the tip needs at `f` mm/min. `below` the tip, mm, is the point
-    that a move with a led tip keeps.
+    `minutes` the move takes, infinite at rapid; None: as long as the tip needs at `f` mm/min. `below` the tip, mm, is a point
+    that stays where it is on the part. The linear axes that lead a tip go no faster than `most` mm/min. `in_plane`: the tool
+    turns in the plane of its directions at both ends, while all axes follow.
     """
-    kinematics = chain(m)
+    kinematics, own = chain(m), m.tool.effective_length
     check_angles(m, to, word)
-    length = m.tool.effective_length + below
     before, after = np.array(m.rotary), np.radians(to)
-    led = m.reckoned is None or bool(below)
-    start, end = led_ends(m, point, below) if led else linear_ends(m, kinematics, point)
+    led = m.reckoned is None or below is not None
+    length = own + (below or 0.0)
+    start, end = led_ends(m, point, below or 0.0) if led else linear_ends(m, kinematics, point)
     count = 8
 
     def places(share: Array) -> tuple[Array, Array]:
         """X Y Z (n, 3) of the spindle reference, and the angles."""
-        turning = before + share[:, None] * (after - before)
+        turning = between(kinematics, before, after, share) if in_plane else before + share[:, None] * (after - before)
         even = start + share[:, None] * (end - start)
         return (kinematics.references(even, turning, length) if led else even), turning
 
@@ -187,8 +222,8 @@ def swing(
             middle, half = (linear[1:] + linear[:-1]) / 2, (turning[1:] + turning[:-1]) / 2
         else:
             middle, half = places((np.arange(count) + 0.5) / count)
-        tips = kinematics.tips(linear, turning, m.tool.effective_length)
-        off = kinematics.tips(middle, half, m.tool.effective_length) - (tips[1:] + tips[:-1]) / 2
+        tips = kinematics.tips(linear, turning, own)
+        off = kinematics.tips(middle, half, own) - (tips[1:] + tips[:-1]) / 2
         worst = float(np.linalg.norm(off, axis=1).max())
         if worst <= tolerance or count > MOST:
             break
@@ -197,6 +232,10 @@ def swing(
         m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)
     label = m.label or (f"tip led within {tolerance:g} mm" if led else "")
     ways = np.linalg.norm(np.diff(tips, axis=0), axis=1)
+    if led and math.isfinite(most):
+        needed = float(np.linalg.norm(np.diff(linear, axis=0), axis=1).sum()) / most
+        if needed > (minutes if minutes is not None and math.isfinite(minutes) else float(ways.sum()) / f):
+            minutes = needed
     x, y, z = tips[-1].tolist()
     with m.within(label=label):
         for k in range(count):
@@ -218,6 +257,18 @@ def swing(
     stand(m)
     if point is not None:
         m.set_register(point)
+
+
+def between(kinematics: Kinematics, before: Array, after: Array, share: Array) -> Array:
+    """A, B, C (n, 3), rad, where the tool turns evenly in the plane of its directions at both ends, at shares (n,) of it."""
+    one, other = kinematics.orientation(np.stack([before, after]))[:, :, 2]
+    even = before + share[:, None] * (after - before)
+    angle = math.atan2(float(np.linalg.norm(np.cross(one, other))), float(one @ other))
+    if not SAME < angle < math.pi - SAME:  # in no plane, or in any
+        return np.asarray(even)
+    turned = share[:, None] * angle
+    found = shorter(kinematics.solutions((np.sin(angle - turned) * one + np.sin(turned) * other) / math.sin(angle), even), even)
+    return np.where((share == 1)[:, None], after, np.where((share == 0)[:, None] | np.isnan(found), even, found))
 
 
 def led_ends(m: Machine, point: Place | None, below: float) -> tuple[Array, Array]:

@@ -224,7 +224,7 @@ def roll(m: Machine, cylinder: Cylinder, points: NDArray[np.float64], angles: ND
 
 #: What a cycle does (`Cycle.does`), as far as its frame must care.
 VISITS, MILLS, TAPS, MILLS_THREADS, SHIFTS = "visits points", "mills", "taps", "mills threads", "shifts a boring bar"
-NOTHING = "moves nothing"
+NOTHING, CALLS = "moves nothing", "runs a program"
 SAME = 1e-9
 
 

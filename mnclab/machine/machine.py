@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.machine import rows
-from mnclab.machine.axes import change_length, stand
+from mnclab.machine.axes import begin, change_length, stand
 from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
@@ -43,6 +43,8 @@ class Machine(Placed):
         self.control, self.setup, self.flow = control, setup, flow
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
         self.begin()
+        if self.tables.kinematics is not None:
+            begin(self)
         self.log("position", self.programmed)
 
     def __repr__(self) -> str:

@@ -127,11 +127,14 @@ class Touch(NamedTuple):
 
 
 class Swivel(NamedTuple):
-    """The rotary axes turn to the angles A, B and C, degrees, at degrees a minute, while the tip of the tool stands."""
+    """The rotary axes turn to the angles A, B and C, degrees, at degrees a minute, alone; the tip stands where it is led, and
+    without the kinematics of a machine. The point that is `below` the tip, mm, stays where it is on the part, if one is named.
+    """
 
     label: str
     angles: tuple[float, float, float]
     feed: float | None
+    below: float | None = None
 
 
 class Rolled(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
 from types import GeneratorType
@@ -14,8 +14,8 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.axes import turn_axes
-from mnclab.machine.coordinates import FRAME, MILLS, in_mm, roll, tool_axis
+from mnclab.machine.axes import leaning, reckon, turn_axes
+from mnclab.machine.coordinates import CALLS, FRAME, MILLS, NOTHING, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
 from mnclab.machine.machine import Machine
@@ -167,10 +167,17 @@ def bind(definition: Definition, m: Machine) -> Cycle:
 
 def refuse_frame(definition: Definition, m: Machine) -> None:
     """An Alarm at a cycle that cannot run under the frame of the machine."""
-    for sentence in coordinates.faults(definition.cycle.does, m):
+    for sentence in (*coordinates.faults(definition.cycle.does, m), *leaning_tool(definition.cycle, m)):
         if definition.cycle.runs == "call":
             m.alarm(f"{definition.code} {sentence}")
         raise fault(definition, None, sentence)
+
+
+def leaning_tool(cycle: type[Cycle], m: Machine) -> Iterator[str]:
+    """A cycle that drills, mills or probes needs the tool along Z of the plane."""
+    works = cycle.runs != "definition" or cycle.does in (PROBES, FEELS)
+    if works and cycle.does not in (NOTHING, CALLS) and (degrees := leaning(m)):
+        yield f"needs the tool square to the working plane, and it leans by {degrees:.4g} degrees"
 
 
 def with_unit(definition: Definition, parameter: Parameter | None, sentence: str) -> str:
@@ -326,7 +333,7 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Touch():
                 answer = m.touch(x + step.x, y + step.y, step.z, f=step.feed, ball=step.ball, miss=step.miss)
             case Swivel():
-                turn_axes(m, step.angles, step.feed)
+                turn_axes(m, step.angles, step.feed, below=step.below)
             case Rolled():
                 roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
@@ -401,6 +408,8 @@ def write(m: Machine, step: Write) -> None:
             m.log("probe", step.value)
         case "file" | "appended":
             put_out(m, step.key, step.value, anew=step.what == "file")
+        case "reckoned":
+            reckon(m, step.value)
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

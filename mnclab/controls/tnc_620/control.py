@@ -19,6 +19,7 @@ from mnclab.controls.tnc_620.cycles import (
     special,
     studs,
     threads,
+    tilting,
     transformations,
 )
 from mnclab.controls.tnc_620.cycles import patterns as point_patterns
@@ -33,6 +34,7 @@ from mnclab.controls.tnc_620.language import (
     pattern_definitions,
     plane,
     program,
+    rotary,
     system_data,
     tools,
     values,
@@ -86,7 +88,7 @@ SETTINGS = (
         unit="s", at_least=0,
     ),
     *auxiliary.SETTINGS, *tools.SETTINGS, *m_functions.SETTINGS, *m_functions.AWAY_SETTINGS,
-    *transformations.SETTINGS, *engraving.SETTINGS,
+    *tilting.SETTINGS, *rotary.SETTINGS, *engraving.SETTINGS,
     *faces.SETTINGS, *tools.AXES_SETTINGS, *system_data.SETTINGS, *printing.SETTINGS,
     *tool_setter.SETTINGS,
     *aimed.SETTINGS,
@@ -98,14 +100,14 @@ SETTINGS = (
 
 FUNCTIONS = (
     motion.FUNCTIONS | approach.FUNCTIONS | flow.FUNCTIONS | values.FUNCTIONS | tools.FUNCTIONS
-    | program.FUNCTIONS | auxiliary.FUNCTIONS | m_functions.FUNCTIONS | plane.FUNCTIONS
+    | program.FUNCTIONS | auxiliary.FUNCTIONS | m_functions.FUNCTIONS | plane.FUNCTIONS | rotary.FUNCTIONS
     | pattern_definitions.FUNCTIONS | free_contours.FUNCTIONS | tables.FUNCTIONS | functions.FUNCTIONS
     | printing.FUNCTIONS | formulas.FUNCTIONS
 )  # fmt: skip
 CHAPTERS = (
     defaults, drilling, threads, point_patterns, pockets, studs, faces,
     area, area_cycles, train, trochoidal_slot, cylinder,
-    transformations, special, engraving,
+    transformations, tilting, special, engraving,
     presets, calibration, cycle, rotation, measuring, tool_setter, line, single,
     obsolete_sub_blocks, obsolete_figures,
 )  # fmt: skip
@@ -139,7 +141,7 @@ MEANINGS = {
     **{f"M94:{axis}": f"the rotary axis {axis}" for axis in "ABC"},
     **{f"M118:{axis}": f"greatest way of the handwheel along {axis}" for axis in "XYZ"},
     **{f"M118:{axis}": f"greatest turn of the handwheel around {axis}" for axis in "ABC"},
-    "TIME": "seconds", "REV": "turns of the spindle", **m_functions.WORDS, **m_functions.ROTARY_WORDS, **m_functions.AWAY_WORDS,
+    "TIME": "seconds", "REV": "turns of the spindle", **m_functions.WORDS, **rotary.WORDS, **m_functions.AWAY_WORDS,
     **{f"{code} {word}": plane.WORDS[word] for code, one in plane.FUNCTIONS.items() for word in one.takes if word in plane.WORDS},
     **formulas.MEANINGS,
     "FSELECT number": "number of the solution, as the control shows them", **free_contours.WORDS,

@@ -21,14 +21,13 @@ PROBING = {
 
 STATEMENTS = {
     "TRANS DATUM": "datum shift of a table",
-    **{f"PLANE {form}": "tilted plane" for form in "PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
-    "FUNCTION TCPM": "leading the tip where rotary axes turn", "FUNCTION PARAXMODE": "parallel axes",
+    "FUNCTION PARAXMODE": "parallel axes",
     "FUNCTION PARAXCOMP": "parallel axes", "FUNCTION RESET": "end of a special function",
     "FUNCTION MODE": "milling or turning", "FUNCTION FEED": "recurring dwell", "BLK FORM FILE": "blank from a file",
 }  # fmt: skip
 
 M = {
-    136: "feed per revolution", 138: "choice of tilting axes",
+    136: "feed per revolution",
     144: "kinematics in actual positions", 197: "rounding of corners",
 }  # fmt: skip
 
@@ -42,11 +41,10 @@ OLDER = {
 #: What is written instead of what is not built, where there is something.
 INSTEAD = {
     "TRANS DATUM": "write CYCL DEF 7 with # and the row of the table",
-    **{code: "write PLANE SPATIAL with the angles of the same plane" for code in STATEMENTS if code.startswith("PLANE ")},
-    "FUNCTION TCPM": "write M128", "FUNCTION FEED": "write FUNCTION DWELL, which waits once",
+    "FUNCTION FEED": "write FUNCTION DWELL, which waits once",
     **{f"FUNCTION {form}": "leave it out where those axes stand still" for form in ("PARAXMODE", "PARAXCOMP")},
     "FUNCTION MODE": "leave it out, for milling", "BLK FORM FILE": "write BLK FORM 0.1 and 0.2, or give Setup(stock=…)",
-    "M136": "write F in mm/min, feed times speed", "M138": "write the angles of the rotary axes in a block L",
+    "M136": "write F in mm/min, feed times speed",
     "M144": "write M128", "M197": "write RND at each corner", "M95": "write APPR", "M96": "write DEP",
     "M104": "write CYCL DEF 247", "M112": "write RND at the corners, or cycle 32", "M114": "write M128",
     "M124": "leave it out, then every point is gone to", "M132": "leave it out, the path is the same",

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from mnclab.machine.machine import Machine
 from mnclab.text.program import Word
@@ -28,6 +29,15 @@ if TYPE_CHECKING:
     from mnclab.workpiece.blank import Blank as Body
 
 Place = tuple[float, float, float]
+
+
+class Led(NamedTuple):
+    """How the tip is led where rotary axes turn: by M128, or by FUNCTION TCPM."""
+
+    most: float = math.inf  # feed of the linear axes, mm/min
+    of_all: bool = False  # the feed counts along all axes of a block, not along the way of the tip
+    spatial: Place | None = None  # A, B, C are spatial angles, degrees, these at last; None: positions of the axes
+    in_plane: bool = False  # the tool turns in the plane of its directions at both ends
 
 
 @dataclass
@@ -64,7 +74,11 @@ class Memory:
     rotation_angles: dict[str, float] = field(default_factory=dict)  # by frame, degrees
     rotary_shift: Place = (0.0, 0.0, 0.0)  # of A, B and C, degrees
     rotary_mirror: str = ""  # which of A, B and C are mirrored
-    tilt_angles: Mapping[str, float] = field(default_factory=dict)  # a, b and c of the active cycle 19, degrees
+    tilt_angles: Mapping[str, float] = field(default_factory=dict)  # a, b and c of the active tilt, degrees
+    tilt_by_axes: bool = False  # they are positions of the rotary axes
+    tilt_axes: Place | None = None  # where A, B and C must stand for it, rad
+    tilting: str | None = None  # the axes of M138; None: those of the machine
+    led: Led | None = None  # how the tip is led, while it is
 
     # cycles
     defaults: dict[str, float | str] = field(default_factory=dict)  # of GLOBAL DEF, by Q parameter

@@ -9,14 +9,16 @@ the machine, see `to_rotary`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator, Iterator, Mapping
 from typing import Any, TypeAlias
 
-from mnclab.controls.tnc_620.state import active_preset, memory
+from mnclab.controls.tnc_620.state import Place, active_preset, memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
 from mnclab.machining.steps import Write
+from mnclab.path.listing import figure
 from mnclab.text.program import Word
 
 SHIFT, MIRROR, ROTATION, SCALE, FACTORS = "shift", "mirror", "rotation", "scale", "axis scales"
@@ -73,6 +75,26 @@ def remember_angle(m: Machine, angle: float) -> Iterator[Write]:
     yield Write("memory", {**kept, name: angle}, "rotation_angles")
 
 
+def count_with(m: Machine, to: Place | None) -> Iterator[Write]:
+    """Coordinates count with the rotary axes at A, B, C, rad, where they must stand for the tilt; None: without one.
+
+    A machine whose kinematics is not known has its coordinates on the part, whatever turns; so has one that leads the tip.
+    """
+    yield Write("memory", to, "tilt_axes")
+    if m.tables.kinematics is None:
+        return
+    if m.reckoned is not None:
+        yield Write("reckoned", to or (0.0, 0.0, 0.0))
+    yield Write("history", None if to is None else solved(m, to), "tilted plane")
+
+
+def solved(m: Machine, to: Place) -> str:
+    """Where the rotary axes must stand, and which way the tool lies on the part then, in words."""
+    assert (kinematics := m.tables.kinematics) is not None
+    stands = [f"{axis}{figure(math.degrees(to['ABC'.index(axis)]))}" for axis in kinematics.names]
+    return f"{' '.join(stands)}, tool axis ({', '.join(map(figure, kinematics.orientation(to)[:, 2].tolist()))})"
+
+
 def untilt(m: Machine) -> Generator[Write, None, list[str]]:
     """Take the tilt out; what was defined behind it acts in the untilted system from now on. The kinds of those are told."""
     left = [kind for kind in KINDS if kind + TILTED in m.frames]
@@ -84,6 +106,7 @@ def untilt(m: Machine) -> Generator[Write, None, list[str]]:
             angles[now] = angles.pop(kind + TILTED, 0.0)
             yield Write("memory", angles, "rotation_angles")
     yield Write("frame", None, TILT)
+    yield from count_with(m, None)
     return left
 
 
@@ -100,6 +123,8 @@ def cancel(m: Machine) -> Iterator[Write]:
     """The end of a program takes every transformation away (11.1)."""
     yield from reset(m)
     yield Write("frame", None, TILT)
+    if memory(m).tilt_axes is not None:
+        yield from count_with(m, None)
 
 
 def rotary(m: Machine) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -11,7 +11,7 @@ from mnclab.controls.tnc_620.cycles import addresses
 from mnclab.controls.tnc_620.cycles.addresses import choice, increment, length, seconds
 from mnclab.controls.tnc_620.cycles.planes import ParameterFault
 from mnclab.controls.tnc_620.language.flow import call_program
-from mnclab.machine.coordinates import TAPS
+from mnclab.machine.coordinates import CALLS, TAPS
 from mnclab.machine.cycle import Cycle, CycleTable, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.steps import Blocks, Say, Spin, Step, Thread, Wait, Write
@@ -122,6 +122,7 @@ class ThreadCutting(Cycle):
 class ProgramCall(Cycle):
     """Makes a program the cycle that CYCL CALL and M99 run; Q parameters count for both programs."""
 
+    does = CALLS
     program_name: str = param("PGM", "name of the program", "text", type="text", modal=True)
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:

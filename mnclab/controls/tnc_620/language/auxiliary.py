@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from mnclab.controls.tnc_620.language.values import above_zero, in_units, one_of
 from mnclab.controls.tnc_620.state import Place, memory
+from mnclab.machine.axes import reference
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import tool_axis
 from mnclab.machine.machine import INF, Machine
@@ -42,14 +45,18 @@ def above_tip(m: Machine) -> Place:
 
 def machine_target(m: Machine, active: tuple[Word, Place], written: dict[int, Word]) -> dict[str, Any]:
     """The point of the program that the words of these axes mean under M91 or M92 (`active`)."""
-    (word, datum), target, above = active, list(m.tip), above_tip(m)
+    (word, datum), kinematics = active, m.tables.kinematics
+    here, above = (reference(m), (0.0, 0.0, 0.0)) if kinematics is not None else (m.tip, above_tip(m))
+    target = list(here)
     for axis, coordinate in written.items():
         value = m.value(coordinate)
         target[axis] = target[axis] + value if coordinate.incremental else datum[axis] + value - above[axis]
+    if kinematics is not None:
+        target = kinematics.tips(np.array(target), np.array(m.rotary), m.tool.effective_length).tolist()
     if m.side:
         m.alarm(f"{word} cannot begin radius compensation", word, "write RL or RR in the block after")
     point = m.to_program(target)
-    return {"xyz"[axis]: point[axis] for axis in (written if m.shift is not None else range(3))}
+    return {"xyz"[axis]: point[axis] for axis in (written if m.shift is not None and kinematics is None else range(3))}
 
 
 @FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="11.9")

@@ -1,12 +1,16 @@
-"""M functions: those that move nothing here, those of rotary axes, and the retraction along the tool axis (M140)."""
+"""M functions: those that move nothing here, and the retraction along the tool axis (M140)."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mnclab.controls.tnc_620.cycles.chain import TILT
 from mnclab.controls.tnc_620.language.auxiliary import above_tip, rate
 from mnclab.controls.tnc_620.language.values import not_negative, one_of, warn_once, whole
+from mnclab.machine.axes import chain, direction, reference
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import INF, Machine
@@ -92,39 +96,6 @@ def machine_function(m: Machine, words: Words) -> None:
     warn_once(m, f"{code} is no function of the control, but of the machine tool builder: it has no effect here", word)
 
 
-# How rotary axes move: M116, M126, M128 and their ends, as far as no rotary axis moves and they change nothing.
-
-TITLES = {
-    "M116": "Feed of rotary axes in mm/min", "M117": "End of M116", "M126": "Shortest way of rotary axes",
-    "M127": "End of M126", "M128": "Tool centre point management", "M129": "End of M128",
-}  # fmt: skip
-GROUPS = {"rotary feed": "M116", "rotary way": "M126", "tool centre": "M128"}
-ROTARY_WORDS = {"M128:F": "feed rate of the compensating moves", "M128:FMAX": "compensating moves at rapid"}
-
-
-@FUNCTIONS("M116", TITLES, group="rotary feed", phase="start", source=SOURCE)
-@FUNCTIONS("M117", TITLES, group="rotary feed", phase="end", power_on="M117", source=SOURCE)
-@FUNCTIONS("M126", TITLES, group="rotary way", phase="start", source=SOURCE)
-@FUNCTIONS("M127", TITLES, group="rotary way", phase="start", power_on="M127", source=SOURCE)
-@FUNCTIONS("M129", TITLES, group="tool centre", phase="end", power_on="M129", source=SOURCE)
-def rule(m: Machine, words: Words) -> None:
-    """It waits for a rotary axis that moves."""
-
-
-@FUNCTIONS("M128", TITLES, group="tool centre", phase="start", takes=" ".join(ROTARY_WORDS), source="9.3")
-def tool_centre(m: Machine, words: Words) -> None:
-    """The tip stays where it is while rotary axes move; F is for the compensating moves alone."""
-    if any(m.rotary):
-        m.alarm("M128 is not built yet where rotary axes have turned", words.words[0])
-
-
-def refuse_rotary(m: Machine, word: Word) -> None:
-    """A rotary axis moves under one of the functions."""
-    for group, code in GROUPS.items():
-        if m.modal.get(group) == code:
-            m.alarm(f"{word.address} under {code} ({TITLES[code].lower()}) is not built yet", word)
-
-
 # Retraction along the tool axis (M140).
 
 AWAY_SETTINGS = (
@@ -133,6 +104,8 @@ AWAY_SETTINGS = (
         "Klartext, not described", unit="mm",
     ),
 )  # fmt: skip
+KINEMATICS = 'with the kinematics of the machine it is: Setup(kinematics="table-ac")'
+FLAT = 1e-9  # of a direction, along an axis that it does not move
 DISTANCE, FAR = "M140:MB", "M140:MBMAX"
 AWAY_WORDS = {
     DISTANCE: "distance of the retraction", FAR: "to the end of the travel", "M140:F": "feed rate of the retraction",
@@ -149,8 +122,8 @@ def retraction(m: Machine, words: Words) -> None:
     word = one_of(m, words, (DISTANCE, FAR), "one distance")
     if word is None:
         m.alarm("M140 needs MB and a distance, or MB MAX", words.words[0], "for example M140 MB MAX or M140 MB 50")
-    if TILT in m.frames:
-        m.alarm("M140 in a tilted plane is not built yet", words.words[0])
+    if TILT in m.frames and m.tables.kinematics is None:
+        m.alarm("M140 in a tilted plane is not built yet", words.words[0], KINEMATICS)
     if word.address == DISTANCE and word.value is None:
         m.alarm("M140 MB needs a number, or MAX", word)
     if word.address == FAR and word.value is not None:
@@ -159,7 +132,12 @@ def retraction(m: Machine, words: Words) -> None:
 
 
 def retract(m: Machine, code: str, word: Word, f: float) -> None:
-    """Along the tool axis by the number of a word, or without one to the end of the travel; the plane is not tilted."""
+    """Along the tool axis by the number of a word, or without one to the end of the travel."""
+    if m.tables.kinematics is not None:
+        tool = direction(m)
+        far = room(m, code, tool, word) if word.value is None else not_negative(m, word, f"{code} MB ({AWAY_WORDS[DISTANCE]})")
+        x, y, z = m.to_program(np.array(m.tip) + far * tool)
+        return m.line(x, y, z, f=f)
     k, target = PLANES[m.plane][2], list(m.tip)
     if word.value is not None:
         target[k] += not_negative(m, word, f"{code} MB (distance of the retraction)")
@@ -169,6 +147,26 @@ def retract(m: Machine, code: str, word: Word, f: float) -> None:
             m.alarm(f"{code} MB MAX leads up alone: the tool stands {m.tip[k] - target[k]:g} mm above the end already", word)
     x, y, z = m.to_program(target)
     m.line(x, y, z, f=f)
+
+
+def room(m: Machine, code: str, tool: NDArray[np.float64], word: Word) -> float:
+    """How far the tool can go along a direction (3,) of the part until the first linear axis is at the end of its travel, mm."""
+    here, kinematics = np.array(reference(m)), chain(m)
+    along = kinematics.references(np.array(m.tip) + tool, np.array(m.rotary), m.tool.effective_length) - here
+    ways, travel = [], m.setup.limits.travel
+    for k in range(3):
+        if abs(along[k]) < FLAT:
+            continue
+        if travel is not None and math.isfinite(end := travel[k][int(along[k] > 0)]):
+            ways.append((end - here[k]) / along[k])
+        elif k == 2 and along[k] > 0:
+            ways.append((end_of_travel(m, code, k, word) - here[k]) / along[k])
+    if not ways:
+        hint = "Setup(limits=mnclab.Limits(travel=…)) says how far X, Y and Z go"
+        m.alarm(f"{code} MB MAX: where the axes end that the tool lies along is not known", word, hint)
+    if min(ways) < -1e-6:
+        m.alarm(f"{code} MB MAX leads away alone: the tool stands {-min(ways):g} mm beyond the end already", word)
+    return float(max(min(ways), 0.0))
 
 
 def end_of_travel(m: Machine, code: str, axis: int, word: Word) -> float:

@@ -6,17 +6,15 @@ import math
 from contextlib import AbstractContextManager
 from typing import Any
 
-from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
 from mnclab.controls.tnc_620.language import tools
 from mnclab.controls.tnc_620.language.auxiliary import FEED_WORDS, feed, machine_target, rate
-from mnclab.controls.tnc_620.language.m_functions import refuse_rotary
+from mnclab.controls.tnc_620.language.rotary import turned
 from mnclab.controls.tnc_620.language.values import above_zero, counted, in_units, one_of, refuse_on_cylinder
 from mnclab.controls.tnc_620.state import Place, memory
 from mnclab.geometry.arcs import tangent_arc_of_one
-from mnclab.machine.axes import travel, turn_axes
+from mnclab.machine.axes import leaning
 from mnclab.machine.control import Function, FunctionTable, Words
-from mnclab.machine.coordinates import AXES as AXES_OF_ROTATION
-from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
+from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
 from mnclab.path.corners import Chamfer, Corner, Open, Prolonged, Rounding
 from mnclab.text.program import Word
@@ -163,6 +161,9 @@ def side(m: Machine, words: Words, begins: bool) -> None:
     if wanted != m.side and not begins:
         what = f"{word} cannot {'begin' if wanted else 'end'} the radius compensation in {words.code}"
         m.alarm(what, word, "write it in a straight line L")
+    if wanted and (degrees := leaning(m)):
+        what = f"{word} needs the tool square to the working plane, and it leans by {degrees:.4g} degrees"
+        m.alarm(what, word, "turn the rotary axes to Q120 to Q122 before, or tilt with TURN")
     m.change("side", wanted)
 
 
@@ -177,20 +178,7 @@ def line(m: Machine, words: Words) -> None:
             m.alarm(f"{polar[0].address} and coordinates of axes stand in one block", polar[0], hint="write LP PR… PA…")
         m.warn("L with polar coordinates is read as LP", polar[0])
         to |= polar_point(m, words)
-    turns = [words[axis] for axis in AXES_OF_ROTATION if axis in words]
-    if turns and (turned := rotary_angles(m, words)) != angles(m):
-        refuse_rotary(m, turns[0])
-        if memory(m).developed is not None:
-            m.alarm(f"{turns[0]}: the contour of a cylinder has X and Y alone, X for the rotary axis", turns[0])
-        if m.tables.kinematics is not None:
-            travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, turns[0])
-            return
-        target = m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z")))
-        if math.dist(target, m.tip) <= 1e-9:  # a frame rounds
-            turn_axes(m, turned, f)
-            return
-        set_angles(m, turned)
-    if to or carried:
+    if not turned(m, words, to, f) and (to or carried):
         if f is None and m.feed is None:
             if m.settings["feed_needed"]:
                 m.alarm("no feed rate was programmed before this move", hint=FEED_NEEDED)
@@ -205,15 +193,6 @@ def polar_line(m: Machine, words: Words) -> None:
     f = feed(m, words)
     side(m, words, begins=True)
     m.line(**polar_point(m, words), f=f)
-
-
-def rotary_angles(m: Machine, words: Words) -> Angles:
-    """Where the rotary axes go, degrees, behind their shift and mirror image; IA counts from where it stands."""
-    found = list(angles(m))
-    for k, axis in enumerate(AXES_OF_ROTATION):
-        if axis in words:
-            found[k] = to_rotary(m, k, counted(m, words[axis], to_angle(m, k, found[k])))
-    return found[0], found[1], found[2]
 
 
 def sense(m: Machine, words: Words) -> int:

@@ -90,11 +90,6 @@ def dwell(m: Machine, words: Words) -> None:
     m.dwell(turns * 60 / abs(m.spindle_speed))
 
 
-@FUNCTIONS("FUNCTION RESET TCPM,", "End of TCPM", source="Klartext, not described")
-def reset_tcpm(m: Machine, words: Words) -> None:
-    """TCPM is refused where it begins: there is nothing to end."""
-
-
 @FUNCTIONS("STOP", "Program stop", phase="end", source="Klartext, not described")
 @FUNCTIONS("M0 M1", STOPS, phase="end", modal=False, source="Klartext, not described")
 def stop(m: Machine, words: Words) -> None:

@@ -16,6 +16,7 @@ from mnclab.controls.tnc_620.language.auxiliary import above_tip
 from mnclab.controls.tnc_620.language.values import PREASSIGNED
 from mnclab.controls.tnc_620.state import active_preset, memory, time_of_day
 from mnclab.controls.tnc_620.tables import row_of
+from mnclab.machine.axes import reference
 from mnclab.machine.control import Setting
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -220,7 +221,7 @@ def mirrored(m: Machine, asked: Asked) -> float:
 def kind_of_tilt(m: Machine, asked: Asked) -> float:
     if chain.TILT not in m.frames:
         return 0.0
-    return 1.0 if m.settings["tilt_angles"] == "axes" else 2.0
+    return 1.0 if memory(m).tilt_by_axes else 2.0
 
 
 def shift(m: Machine, asked: Asked) -> float:
@@ -248,6 +249,8 @@ def along_the_contour(m: Machine) -> None:
 def on_the_machine(m: Machine, asked: Asked) -> float:
     """As M91 counts: the spindle reference, above the tip."""
     along_the_contour(m)
+    if m.tables.kinematics is not None:
+        return (*reference(m), *map(math.degrees, m.rotary))[int(asked.index) - 1]
     spindle = (tip + above for tip, above in zip(m.tip, above_tip(m), strict=True))
     return (*spindle, *map(math.degrees, m.rotary))[int(asked.index) - 1]
 
@@ -333,7 +336,7 @@ ROWS: dict[tuple[float, float], SystemDatum] = {
     (240, 1): SystemDatum("nominal position in the REF system", on_the_machine, AXES),
     (240, 8): SystemDatum("actual position in the REF system", on_the_machine, AXES),
     (270, 1): SystemDatum("position in the active coordinate system", in_the_program, AXES),
-    (280, 1): SystemDatum("M128 is active", lambda m, asked: holds(m, "M128")),
+    (280, 1): SystemDatum("M128 or FUNCTION TCPM is active", lambda m, asked: min(holds(m, "M128"), holds(m, "FUNCTION TCPM"))),
     (310, 116): SystemDatum("M116 is active", lambda m, asked: holds(m, "M116")),
     (310, 128): SystemDatum("M128 is active", lambda m, asked: holds(m, "M128")),
     (310, 144): SystemDatum("M144 is active", never),

@@ -203,6 +203,8 @@ def move(m: Machine, words: Words) -> bool:
         return False
     if m.settings["secondary_axes"] == "refuse":
         m.alarm(f"{named[0]}: the machine has no secondary axis {named[0].address} (setting secondary_axes)", named[0])
+    if m.tables.kinematics is not None:
+        m.alarm(f"{named[0]}: secondary axes on a machine with rotary axes are not built yet", named[0])
     if memory(m).machine_datum is not None:
         m.alarm(f"{named[0]}: secondary axes under M91 or M92 are not built yet", named[0])
     if m.side:

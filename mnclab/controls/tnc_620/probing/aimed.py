@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mnclab.controls.tnc_620.cycles.addresses import FAR
 from mnclab.controls.tnc_620.cycles.planes import ParameterFault
-from mnclab.controls.tnc_620.cycles.transformations import axis_positions, position
+from mnclab.controls.tnc_620.cycles.tilting import axis_positions, position
 from mnclab.controls.tnc_620.probing.cycle import store
 from mnclab.controls.tnc_620.probing.rotation import C, align, cannot_turn
 from mnclab.controls.tnc_620.state import active_preset
@@ -320,7 +320,7 @@ def take_over(c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, 
     `by` its angle in the plane, degrees, nan in space."""
     here, should = chosen(c, [one.point for one in found]), chosen(c, list(nominal))
     before, axes = m.tables.presets.get(active_preset(m), Datum()), m.frames["preset"][:3, :3]
-    inner = frames.inverse(m.frames.before("preset") @ m.frames["preset"]) @ m.matrix  # what acts behind the preset
+    inner = frames.inverse(m.frames.before("preset") @ m.frames["preset"]) @ m.frames.matrix  # what acts behind the preset
     new, origin, columns = axes, np.array(before[:3]), {}
     if c.confirm_rotation == BASIC:
         tilt = inner[:3, :3]
@@ -334,7 +334,8 @@ def take_over(c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, 
     if here is not None and should is not None:
         is_, gets = origin + axes @ frames.apply(inner, here), new @ frames.apply(inner, should)
         if c.confirm_rotation == TABLE:
-            centre = (m.settings["table_x"], m.settings["table_y"], 0.0)
+            known = m.tables.kinematics
+            centre = known.axis("C").centre if known else (m.settings["table_x"], m.settings["table_y"], 0.0)
             is_ = frames.apply(frames.turn(-math.radians(by), about=centre), is_)
         columns |= dict(zip("xyz", (is_ - gets).tolist(), strict=True))
     if columns:
@@ -342,4 +343,4 @@ def take_over(c: Any, m: Machine, found: Sequence[FoundPlace], nominal: Floats, 
     if c.align_rotary_axis and c.confirm_rotation == TABLE:
         yield from align(m, C, by)
     elif c.align_rotary_axis:
-        yield from position(m, axis_positions(m), RAPID, 0.0)
+        yield from position(m, axis_positions(m, c.code), RAPID, 0.0)

@@ -16,7 +16,8 @@ from typing import Any
 from mnclab.controls.tnc_620.cycles.addresses import choice, coordinate, count, length
 from mnclab.controls.tnc_620.cycles.chain import offset, to_angle
 from mnclab.controls.tnc_620.cycles.planes import ParameterFault
-from mnclab.controls.tnc_620.language.m_functions import GROUPS, TITLES
+from mnclab.controls.tnc_620.cycles.tilting import rotary_axes
+from mnclab.controls.tnc_620.language.rotary import GROUPS, TITLES
 from mnclab.controls.tnc_620.probing import addresses
 from mnclab.controls.tnc_620.probing.addresses import CENTRES, HEIGHTS, LINE, ROUND
 from mnclab.controls.tnc_620.probing.cycle import Moves, ProbingCycle, circle, measured, needed, ring, store
@@ -52,7 +53,7 @@ def align(m: Machine, axis: int, by: float) -> Iterator[Step]:
     """Turn a rotary axis by an angle, degrees."""
     a, b, c = (angle + by * (k == axis) for k, angle in enumerate(angles(m)))
     if by:
-        yield Say(f"turns {AXES[axis]} by {by:.4f} degrees", STANDS)
+        yield Say(f"turns {AXES[axis]} by {by:.4f} degrees", STANDS if m.tables.kinematics is None else "")
         yield Swivel("align the workpiece", (a, b, c), RAPID)
 
 
@@ -64,10 +65,13 @@ def zeroed(m: Machine, axis: int) -> dict[str, float]:
 
 def cannot_turn(m: Machine, axis: int, name: str) -> Iterator[ParameterFault]:
     """Why a rotary axis cannot turn; `name` of the parameter that asks for it."""
-    there = m.settings["rotary_axes"]
+    there, known = rotary_axes(m).names, m.tables.kinematics
     if AXES[axis] not in there:
-        yield name, f"needs the rotary axis {AXES[axis]}: the machine has {' and '.join(sorted(there))} (setting rotary_axes)"
-    for group, code in GROUPS.items():
+        said = "Setup.kinematics" if known else "setting rotary_axes"
+        yield name, f"needs the rotary axis {AXES[axis]}: the machine has {' and '.join(there)} ({said})"
+    elif known and known.axis(AXES[axis]) in known.head:
+        yield name, f"turns the table, and {AXES[axis]} is in the head of the machine"
+    for group, code in GROUPS.items() if not known else ():
         if m.modal.get(group) == code:
             yield name, f"turns a rotary axis, which is not built yet under {code} ({TITLES[code].lower()})"
     if any(memory(m).rotary_shift) or memory(m).rotary_mirror:

@@ -177,19 +177,29 @@ def waiting(cursor: Cursor) -> None:
 
 
 def plane(cursor: Cursor) -> None:
-    """PLANE RESET and PLANE SPATIAL: angles, and how the rotary axes behave."""
+    """PLANE: angles, vectors or points, and how the rotary axes behave."""
     while not cursor.done:
         begin = cursor.at
         if found := cursor.match(_BEHAVIOUR):
             cursor.match(_FAR)
             cursor.add(found.group().upper(), cursor.value(), begin)
         elif found := cursor.match(_CHOICE):
-            cursor.add(found.group().upper().split()[0].rstrip("+-"), None, begin)
+            name, sign = found.group().upper().split()[0].rstrip("+-"), found.group()[-1]
+            cursor.add(name, sign if sign in "+-" else None, begin)
         elif found := cursor.match(_MEASURE):
             name = found.group().strip().upper()
             cursor.add(name, cursor.needed(f"{name} needs a number", begin, len(name)), begin)
         else:
             cursor.word()
+
+
+def led(cursor: Cursor) -> None:
+    """FUNCTION TCPM: F TCP or F CONT, AXIS POS or AXIS SPAT, PATHCTRL, REFPNT, each with its word."""
+    while not cursor.done:
+        begin = cursor.at
+        found = cursor.expect(_LED, "F TCP, AXIS POS, PATHCTRL AXIS and REFPNT TIP-TIP stand here, or others of their words")
+        name, value = found.group().upper().split()
+        cursor.add(f"TCPM:{name}", value, begin)
 
 
 UNITS = ("MM", "INCH")
@@ -207,8 +217,9 @@ WORDS: dict[str, Read] = {
     "PATTERN DEF": plain, "DECLARE CONTOUR": plain, "CONTOUR DEF": plain,  # whose lines LINES read
     "SEL CONTOUR": definitions.selected,
     "BEGIN PGM": program_name, "END PGM": program_end, "BLK FORM 0.1": with_axis, "BLK FORM 0.2": plain,
-    "PLANE RESET": plane, "PLANE SPATIAL": plane, "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
-    "FUNCTION RESET TCPM": plain, "FUNCTION DWELL": waiting,
+    **{f"PLANE {form}": plane for form in "RESET SPATIAL PROJECTED EULER VECTOR POINTS RELATIV AXIAL".split()},
+    "TRANS DATUM AXIS": plain, "TRANS DATUM RESET": plain,
+    "FUNCTION RESET TCPM": plain, "FUNCTION TCPM": led, "FUNCTION DWELL": waiting,
     "BLK FORM CYLINDER": with_axis, "BLK FORM ROTATION": turned_blank,
     **{f"{way} {form}": plain for way in ("APPR", "DEP") for form in _FORMS},
 }  # fmt: skip
@@ -250,8 +261,14 @@ _LIKE_A_STATEMENT = re.compile(r"=|(?<![A-Z])(?:Q[LRS]?\d|(?:GOTO|LBL|CALL|PGM|D
 _WAIT = re.compile(r"(?:TIME|REV)[ \t]*(?![A-PR-Z])", FLAGS)
 _BEHAVIOUR = re.compile(r"(?:STAY|MOVE|TURN)(?![A-Z])|MB(?=[ \t]*MAX(?![A-Z])|(?![A-Z]))", FLAGS)
 _FAR = re.compile(r"(?<=MB)[ \t]*MAX(?![A-Z])", FLAGS)
-_CHOICE = re.compile(r"SEQ[ \t]*[+-]|(?:TABLE|COORD)[ \t]+ROT(?![A-Z])", FLAGS)
-_MEASURE = re.compile(r"(?:ABST|DIST|SP[ABC])[ \t]*(?![A-PR-Z])", FLAGS)
+_CHOICE = re.compile(r"(?:SEQ|SYM)[ \t]*[+-]|(?:TABLE|COORD)[ \t]+ROT(?![A-Z])", FLAGS)
+_MEASURE = re.compile(
+    r"(?:ABST|DIST|SP[ABC]|PROPR|PROMIN|ROT|EULPR|EULNU|EULROT|[BN][XYZ]|P[123][XYZ])[ \t]*(?![A-PR-Z])", FLAGS
+)
+_LED = re.compile(
+    r"(?:F[ \t]+(?:TCP|CONT)|AXIS[ \t]+(?:POS|SPAT)|PATHCTRL[ \t]+(?:AXIS|VECTOR)"
+    r"|REFPNT[ \t]+(?:TIP|CENTER)-(?:TIP|CENTER))(?![A-Z-])", FLAGS
+)  # fmt: skip
 _TEXT_PARAMETER = re.compile(r"QS[ \t]?(\d{1,4})(?!\d)", FLAGS)
 
 
