@@ -50,15 +50,16 @@ def cutting_after(exercise: Exercise, run: Run) -> Cutting:
     path = late.replace(**{name: both(name, getattr(late, name)) for name in COLUMNS})
     rows = len(early)
     which = np.concatenate([first.which, then.which + len(first.tools)])
-    tilted = np.concatenate([_mask(first), _mask(then)])
+    directions = np.concatenate([_directions(first), _directions(then)])
     arrived, known = rows + then.arrived, rows + then.known
     tools = [*first.tools, *then.tools]
-    return replace(then, path=path, tools=tools, which=which, tilted=tilted, arrived=arrived, known=known,
+    return replace(then, path=path, tools=tools, which=which, directions=directions, arrived=arrived, known=known,
                    name=place)  # fmt: skip
 
 
-def _mask(cutting: Cutting) -> Any:
-    return np.zeros(len(cutting), dtype=bool) if cutting.tilted is None else cutting.tilted
+def _directions(cutting: Cutting) -> Any:
+    up = np.broadcast_to([0.0, 0.0, 1.0], (len(cutting), 2, 3))
+    return up if cutting.directions is None else cutting.directions
 
 
 def part_of(exercise: Exercise, run: Run) -> Workpiece:

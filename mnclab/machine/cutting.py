@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.setup import Magazine
+from mnclab.path.cylinder import on_drum
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
-from mnclab.workpiece.cutting import Cutting
-from mnclab.workpiece.milling.moves import Moves, moves_of
+from mnclab.workpiece.cutting import UPRIGHT, Cutting
+from mnclab.workpiece.milling.moves import Moves, joined, moves_of
+from mnclab.workpiece.milling.tilted import Group, tilted_groups
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 
@@ -30,7 +32,6 @@ if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
 
 
-UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
 TILT = "frame tilt"  # the frame of a tilted working plane: the tool stands along its Z
 
 Steps = NDArray[np.integer[Any]]  # the step of each row (n,)
@@ -60,30 +61,37 @@ def tools_of_rows(
     return tools, which, np.array(lifts)[which]
 
 
-def lifted(path: Toolpath, lift: Array) -> Toolpath:
-    """A path whose rows stand higher."""
+def lifted(path: Toolpath, lift: Array, directions: Array | None = None) -> Toolpath:
+    """A path whose rows stand higher by a lift (n,), along the tool where that has `directions` (n, 2, 3)."""
     if not lift.any():
         return path
-    up = np.zeros((len(path), 3))
-    up[:, 2] = lift
+    up = lift[:, None, None] * (np.array([[[0.0, 0.0, 1.0]]]) if directions is None else directions)
     columns = {name: getattr(path, name) for name in path.all_but_ends()}
-    return path.replace(**columns, start=path.start + up, end=path.end + up)
+    return path.replace(**columns, start=path.start + up[:, 0], end=path.end + up[:, -1])
 
 
-def tilted_rows(step: Steps, tilts: Changes, axes: Changes = (), cylinder: NDArray[np.int16] | None = None) -> Mask | None:
-    """Rows of some steps that are made with a tool that does not stand along Z of the workpiece (n,).
+def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Array | None:
+    """The directions of the tool on the part at the start and the end of each row (n, 2, 3); None where it stands along Z.
 
-    `tilts` are the changes of the frame `TILT`, `axes` those of the tool axis. `cylinder` (n,) names
-    the cylinders on which rows lie, which turn the workpiece; -1 none.
+    Where the kinematics of the machine are not known, the tool stands along Z of the frame `TILT`, whose changes are `tilts`;
+    `axes` are those of the tool axis. Rows on a cylinder turn the part under it.
     """
-    found = np.asarray(cylinder >= 0) if cylinder is not None and (cylinder >= 0).any() else None
-    leaning = [(when, frame is not None and not np.asarray(frame)[2, 2] > UPRIGHT) for when, frame in tilts]
-    for turned in (leaning, [(when, axis != "Z") for when, axis in axes]):
-        if any(on for _, on in turned):
-            at, on = zip(*turned, strict=True)
-            rows = np.asarray(np.array([False, *on])[np.searchsorted(np.array(at), step, "right")])
-            found = rows if found is None else found | rows
-    return found
+    n = len(path)
+    frames = [np.eye(3), *(np.eye(3) if frame is None else np.asarray(frame, dtype=np.float64)[:3, :3] for _, frame in tilts)]
+    along = np.eye(3)[["XYZ".index(axis) for _, axis in ((0, "Z"), *axes)]]
+    own = along[np.searchsorted(np.array([when for when, _ in axes]), path.step, "right")]
+    if path.kinematics is not None:
+        turns = path.kinematics.orientation(path.rotary)
+    else:
+        turns = np.stack(frames)[np.searchsorted(np.array([when for when, _ in tilts]), path.step, "right")]
+    end = np.einsum("nij,nj->ni", turns, own)
+    end[end[:, 2] > UPRIGHT] = 0.0, 0.0, 1.0
+    turned = np.append(False, (np.diff(path.rotary, axis=0) != 0).any(axis=1))[:n]
+    start = np.where(turned[:, None], np.concatenate([end[:1], end[:-1]]), end)
+    found = np.stack([start, end], axis=1)
+    if path.cylinders:
+        found = on_drum(path, found)
+    return found if (found[..., 2] < UPRIGHT).any() else None
 
 
 def start_known(
@@ -135,13 +143,15 @@ CUT = "cut"
 
 @dataclass(frozen=True, eq=False)
 class CutSoFar:
-    """The moves of the first `pieces` of the settled path, machine coordinates, their rows counted from touch to touch.
+    """The moves of the first `pieces` of the settled path, machine coordinates, their rows counted from touch to touch; those of
+    `tilted` tools by their directions.
 
     `known`: every row from there on has a start that somebody said.
     """
 
     pieces: int
     moves: Moves
+    tilted: tuple[Group, ...]
     known: bool
 
 
@@ -157,7 +167,7 @@ def part_before(m: Machine, word: Word | None) -> Part:
     stock = stock.moved(origin)
     before = m.cut_so_far
     m.cut_so_far = _grown(m, before if before and before.known else None, stock)
-    return Touched(stock, m.cut_so_far.moves).part
+    return Touched(stock, m.cut_so_far.moves, m.cut_so_far.tilted).part
 
 
 def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
@@ -169,8 +179,10 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value, m.setup.true_tools)
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
-    tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
-    more = moves_of(Cutting(lifted(path, lift), tools, which, stock, arrived, known, tilted))
-    both = [before.moves, more] if before else [more]
-    moves = Moves(**{name: np.concatenate([getattr(each, name) for each in both]) for name in vars(more)})
-    return CutSoFar(len(m.settled), moves, known < len(path) or before is not None)
+    directions = directions_of_rows(path, tilts, axes)
+    path = lifted(path.on_workpiece(), lift, directions)
+    cutting = Cutting(path, tools, which, stock, arrived, known, directions)
+    more, tilted = moves_of(cutting), tilted_groups(cutting)
+    moves = joined([before.moves, more]) if before else more
+    groups = before.tilted + tilted if before else tilted
+    return CutSoFar(len(m.settled), moves, groups, known < len(path) or before is not None)

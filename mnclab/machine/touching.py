@@ -16,13 +16,14 @@ import numpy as np
 
 from mnclab.geometry.curves import turned
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
-from mnclab.machine.cutting import CUT, TILT, part_before, start_known, tilted_rows
+from mnclab.machine.cutting import CUT, TILT, directions_of_rows, part_before, start_known
 from mnclab.machine.measuring import Touched
 from mnclab.machining.probing.sequences import Approach, Steps
 from mnclab.machining.steps import Measure, Step, Touch, Write
 from mnclab.path.toolpath import Kind, Toolpath, concatenate
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
+from mnclab.workpiece.cutting import UPRIGHT
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
 from mnclab.workpiece.part.touching import GRAZE, blocked
 
@@ -277,9 +278,9 @@ def stop_at_part(m: Machine) -> None:
     probes = [number for number, tool in m.tables.tools.items() if tool.kind == "probe"]
     rows = path.is_motion & (path.kind != Kind.PROBE) & np.isin(path.tool, probes) & (path.label == 0)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
-    tilted = tilted_rows(path.step, tilts, axes, path.cylinder)
-    if tilted is not None:
-        rows &= ~tilted
+    directions = directions_of_rows(path, tilts, axes)
+    if directions is not None:
+        rows &= (directions[..., 2] > UPRIGHT).all(axis=1)
     rows[: start_known(path, m.setup.start)[1]] = False
     for row in np.flatnonzero(rows)[:MOST].tolist():
         place = _met(m, part, path, row)

@@ -13,7 +13,7 @@ lies on the workpiece.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -108,13 +108,9 @@ def on_workpiece(path: Toolpath) -> Toolpath:
     """
     if not path.cylinders or not len(path):
         return path
-    which, previous = _cylinder_of(path), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
     start, end, centre, axis = (np.array(getattr(path, name)) for name in ("start", "end", "centre", "axis"))
     kind, sweep = path.kind.copy(), path.sweep.copy()
-    for number, one in enumerate(path.cylinders):
-        rows = np.flatnonzero(which == number)
-        after = path.rotary[rows, one.rotary]
-        before = np.where(path.cylinder[rows] == number, path.from_angle[rows], previous[rows, one.rotary])
+    for one, rows, before, after in _turns(path):
         start[rows] = one.on_workpiece(path.start[rows], before)
         end[rows] = one.on_workpiece(path.end[rows], after)
         arcs = kind[rows] == Kind.ARC  # the workpiece stands while they are made, or they would be no arcs
@@ -131,6 +127,24 @@ def on_workpiece(path: Toolpath) -> Toolpath:
     columns |= {"start": start, "end": end, "centre": centre, "axis": axis, "kind": kind, "sweep": sweep}
     found = path.replace(**columns).annotated(cylinders=())
     return found.replace(**columns | {"feed": _speeds(found, found.lengths)})
+
+
+def on_drum(path: Toolpath, directions: Array) -> Array:
+    """Directions (n, 2, 3) of the tool at the start and the end of rows on a workpiece that turns, as it lies at the angle 0."""
+    found = directions.copy()
+    for one, rows, *angles in _turns(path):
+        for end, angle in enumerate(angles):
+            found[rows, end] = one.on_workpiece(directions[rows, end] + one.point, angle) - one.point
+    return found
+
+
+def _turns(path: Toolpath) -> Iterator[tuple[Cylinder, Index, Array, Array]]:
+    """The cylinders, the rows about whose axis the workpiece turns, and the angles (k,) before and after these, rad."""
+    which, previous = _cylinder_of(path), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
+    for number, one in enumerate(path.cylinders):
+        rows = np.flatnonzero(which == number)
+        before = np.where(path.cylinder[rows] == number, path.from_angle[rows], previous[rows, one.rotary])
+        yield one, rows, before, path.rotary[rows, one.rotary]
 
 
 def divided(path: Toolpath, turn: float) -> Toolpath:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mnclab.machine.coordinates import LOG
-from mnclab.machine.cutting import TILT, lifted, start_known, tilted_rows, tools_of_rows
+from mnclab.machine.cutting import TILT, directions_of_rows, lifted, start_known, tools_of_rows
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
@@ -107,12 +107,13 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     body = body if stock is None else from_datum(body, origin)
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
-    tilted = tilted_rows(path.step, changed(TILT), changed(LOG), path.cylinder)
+    directions = directions_of_rows(path, changed(TILT), changed(LOG))
     known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     said: dict[str, Any] = {"name": run.place_of_line, "origin": tuple(origin.tolist()), "reach": run.reach}
     said["across"] = run.control.across(run.settings)
-    return Cutting(lifted(path, lift), tools, which, body, *known, tilted, fixtures, **said)
+    path = lifted(path.on_workpiece(), lift, directions)
+    return Cutting(path, tools, which, body, *known, directions, fixtures, **said)
 
 
 def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:

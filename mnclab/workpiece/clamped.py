@@ -22,12 +22,17 @@ from mnclab.geometry.contours import Contour
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array
 from mnclab.text.given import check_number, choice
+from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.cutting import UPRIGHT
 
 if TYPE_CHECKING:
     from mnclab.workpiece.milling.moves import Moves
+    from mnclab.workpiece.milling.tilted import Gaps
     from mnclab.workpiece.workpiece import Solid, Workpiece
 
 EDGE = 1e-9  # mm beside the box about a part that still count as its edge: what turning and shifting rounds
+STEPS, HALVINGS = 96, 40  # of a line through a blank that lies on its side, and of each of its ends
+SQUARES = 24  # of points that are looked at together, along the longer side
 PLACES = 200  # along the longer side of a view from the side that is not along an axis of the part
 QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))  # cosine and sine of whole quarters of a turn
 
@@ -45,7 +50,7 @@ OVER = {"x": np.diag([1.0, -1.0, -1.0]), "y": np.diag([-1.0, 1.0, -1.0])}
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """Where a part stands: turned by a matrix (3, 3), about Z or upside down, then shifted by (3,) mm."""
+    """Where a part stands: turned by a matrix (3, 3), then shifted by (3,) mm."""
 
     turn: Array = field(default_factory=lambda: np.eye(3))
     shift: Array = field(default_factory=lambda: np.zeros(3))
@@ -53,6 +58,11 @@ class Placement:
     @property
     def over(self) -> bool:
         return bool(self.turn[2, 2] < 0)
+
+    @property
+    def leans(self) -> bool:
+        """Whether it is turned otherwise than about Z or upside down."""
+        return bool(abs(self.turn[2, 2]) < UPRIGHT)
 
     @property
     def degrees(self) -> float:
@@ -122,6 +132,8 @@ class Clamped:
 
     def faces(self, x: Array, y: Array) -> tuple[Array, Array]:
         """How low and how high it reaches at points (m,); nan beside it."""
+        if self.placement.leans:
+            return self._faces_aslant(x, y)
         places = self.placement.back(np.stack([x, y, np.zeros_like(x)], axis=-1))
         low, high = self.body.bounds
         inside = np.clip(places, low, high)
@@ -129,6 +141,37 @@ class Clamped:
         floor, top = self.body.faces(px, py)
         z = self.placement.shift[2]
         return (z - top, z - floor) if self.placement.over else (floor + z, top + z)
+
+    @cached_property
+    def gaps(self) -> Gaps | None:
+        """What tools of other directions took away between its faces; None where it has no gaps."""
+        from mnclab.workpiece.milling.tilted import Gaps
+
+        found = tuple(self.made_by())
+        return Gaps(found, self.bounds) if any(self.placement.leans or each.leans for _, each in found) else None
+
+    def _faces_aslant(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The faces of the first blank on its side, less what was taken away, which `made_by` tells."""
+        from mnclab.workpiece.milling.sweep import grouped
+
+        first, place = self.first()
+        floor, top = crossed(first, place, x, y, self.bounds[:, 2])
+        solid = np.flatnonzero(top > floor)
+        for some in grouped(x[solid], y[solid], float(np.ptp(self.bounds[:, :2], axis=0).max()) / SQUARES) if self.gaps else ():
+            k = solid[some]
+            top[k], floor[k] = self.gaps.sides(x[k], y[k], top[k], floor[k])
+        solid = top > floor + EDGE
+        return np.where(solid, floor, np.nan), np.where(solid, top, np.nan)
+
+    def first(self) -> tuple[Any, Placement]:
+        """The blank of which the first clamping was cut, and where it stands now: of a turned part that itself."""
+        own = self.body.cutting.stock
+        if self.body.half_section() is not None:
+            return Clamped(self.body), self.placement
+        if not isinstance(own, Clamped):
+            return own, self.placement
+        found, place = own.first()
+        return found, self.placement.after(place)
 
     # --- elsewhere ---------------------------------------------------------------------------------------------------
 
@@ -199,6 +242,33 @@ class Clamped:
         x, y = (np.arange(a + step / 2, b, step) for a, b in zip(low[:2].tolist(), high[:2].tolist()))
         floor, top = (side.reshape(len(y), len(x)) for side in here.faces(*(p.ravel() for p in np.meshgrid(x, y))))
         return from_side(x, y, floor, top, right, up)
+
+
+def crossed(body: Blank, place: Placement, x: Array, y: Array, ends: Array) -> tuple[Array, Array]:
+    """From where to where upright lines at points (m,) cross a blank that stands there, between two heights; equal beside it.
+
+    The ends are found by halving. What is cut off less than one of `STEPS` is not seen, nor what is hollow between both.
+    """
+    low, high = np.full((2, len(x)), ends[0])
+    z = ends[0] + (ends[1] - ends[0]) * np.arange(STEPS + 1) / STEPS
+
+    def inside(some: Array, height: Array) -> Array:
+        points = place.back(np.stack(np.broadcast_arrays(x[some], y[some], height), axis=-1))
+        floor, top = body.faces(points[:, 0], points[:, 1])
+        return np.asarray((floor <= points[:, 2]) & (points[:, 2] <= top))
+
+    every = np.arange(len(x))
+    seen = np.stack([inside(every, height) for height in z])
+    met = np.flatnonzero(seen.any(axis=0))
+    for found, first in ((low, seen.argmax(axis=0)[met]), (high, STEPS - seen[::-1].argmax(axis=0)[met])):
+        out = np.clip(first + (-1 if found is low else 1), 0, STEPS)
+        within, beyond = z[first], z[out]
+        for _ in range(HALVINGS):
+            half = (within + beyond) / 2
+            there = inside(met, half)
+            within, beyond = np.where(there, half, within), np.where(there, beyond, half)
+        found[met] = within
+    return low, high
 
 
 def from_side(x: Array, y: Array, floor: Array, top: Array, right: int, up: int) -> list[Array]:

@@ -15,7 +15,7 @@ import numpy as np
 from mnclab.path.inserts import edgeless
 from mnclab.path.places import divided
 from mnclab.path.tool import LATHE, Tool
-from mnclab.path.toolpath import Index, Kind, Mask, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.part import Part
 
@@ -23,6 +23,8 @@ CUTS = (Kind.LINE, Kind.ARC)  # what moves at feed; a probe cuts nothing
 OF_BLANK = "of the blank: "
 MILLS = ("mill", "face mill", "thread mill", "chamfer")  # no lathe of these turns a tool; drills and the like cut on its axis
 SHOWN = 3  # lines that a sentence names
+UPRIGHT = 1 - 1e-12  # the cosine between the axes of a tool and of the machine from which on it is not tilted
+TURNED = 1e-9  # of unit vectors, by which two directions differ
 
 
 def _lines(line: int, program: int) -> str:
@@ -34,8 +36,9 @@ class Cutting:
     """Rows of a path (n,) and what they meet.
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
-    `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `tilted` rows
-    are made with a tool that does not stand along Z. `fixtures` hold the blank. `name` says in which program a line
+    `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `directions`
+    (n, 2, 3) are those of the tool, from its tip to the spindle, at the start and the end of each row; None: along Z.
+    `fixtures` hold the blank. `name` says in which program a line
     stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine. `reach` is "up to line 12, where
     the run stopped" if the path ends before its program, else empty. `across` is what X is in the program of a lathe, a
     "radius" or a "diameter".
@@ -47,7 +50,7 @@ class Cutting:
     stock: Blank | Any
     arrived: int = 0
     known: int = 0
-    tilted: Mask | None = None
+    directions: Array | None = None
     fixtures: Sequence[Blank | Part] = ()
     name: Any = field(default=_lines)
     origin: Sequence[float] = (0.0, 0.0, 0.0)
@@ -65,16 +68,22 @@ class Cutting:
 
     def until(self, row: int) -> Cutting:
         """The same up to a row and with it."""
-        tilted = None if self.tilted is None else self.tilted[: row + 1]
-        return replace(self, path=self.path[: row + 1], which=self.which[: row + 1], tilted=tilted, reach="")
+        return replace(self.rows(slice(row + 1)), reach="")
+
+    def rows(self, some: slice) -> Cutting:
+        """The same with some rows that follow each other."""
+        arrived, known = (max(each - (some.start or 0), 0) for each in (self.arrived, self.known))
+        directions = None if self.directions is None else self.directions[some]
+        path, which = self.path[some], self.which[some]
+        return replace(self, path=path, which=which, directions=directions, arrived=arrived, known=known)
 
     def divided(self, counts: Index) -> Cutting:
         """The same with each row in so many (n,) equal parts."""
         path, row = divided(self.path, counts)
         first = np.append(np.cumsum(counts) - counts, len(row))
         arrived, known = (int(first[min(each, len(counts))]) for each in (self.arrived, self.known))
-        tilted = None if self.tilted is None else self.tilted[row]
-        return replace(self, path=path, which=self.which[row], tilted=tilted, arrived=arrived, known=known)
+        directions = None if self.directions is None else self.directions[row]
+        return replace(self, path=path, which=self.which[row], directions=directions, arrived=arrived, known=known)
 
     def uncut(self, stock: Blank) -> Cutting:
         """Another blank on the same machine, before the first row."""
@@ -94,6 +103,44 @@ class Cutting:
         moves &= ((path.kind != Kind.RAPID) | (np.arange(len(path)) >= self.arrived)) & ~self.held
         bodies = np.array([tool.kind != "probe" and tool_exists(tool) for tool in self.tools], dtype=bool)
         return np.asarray(moves & bodies[self.which] if len(bodies) else moves & False)
+
+    @cached_property
+    def tilted(self) -> Mask | None:
+        """Rows (n,) of a tool that does not stand along Z from their start to their end; None without any."""
+        found = None if self.directions is None else np.asarray((self.directions[..., 2] < UPRIGHT).any(axis=1))
+        return found if found is not None and found.any() else None
+
+    @cached_property
+    def turning(self) -> Mask:
+        """Rows (n,) on which the tool turns on the part while it moves."""
+        if self.directions is None:
+            return np.zeros(len(self), dtype=bool)
+        return np.asarray(self.path.is_motion & (np.abs(np.diff(self.directions, axis=1)) > TURNED).any(axis=(1, 2)))
+
+    @cached_property
+    def round_(self) -> Mask:
+        """Rows (n,) that cut while the part turns about the axis of their arc, to which the tool is square."""
+        if not self.turning.any():
+            return self.turning
+        assert self.directions is not None
+        along = np.abs(np.einsum("nek,nk->ne", self.directions, self.path.axis)).max(axis=1)
+        return np.asarray(self.turning & self.cuts & (self.path.kind == Kind.ARC) & (along < TURNED))
+
+    def by_direction(self, some: Mask) -> Iterator[tuple[Array, Mask]]:
+        """Some rows (n,) by the direction at their end: the frame (3, 3) along it, and which they are."""
+        assert self.directions is not None
+        ends, rows = self.directions[:, 1], np.flatnonzero(some)
+        kinds, which = np.unique(np.round(ends[rows], 12), axis=0, return_inverse=True)
+        for k in range(len(kinds)):
+            mine = rows[which.reshape(-1) == k]
+            yield frames_along(ends[mine[:1]])[0], np.isin(np.arange(len(self)), mine)
+
+    def seen_along(self, turn: Array) -> Cutting:
+        """The rows in a frame (3, 3), as those of a tool that is upright there; the blank stays where it is."""
+        columns = {name: getattr(self.path, name) for name in self.path.all_but_ends()}
+        for name in ("start", "end", "centre", "axis"):
+            columns[name] = np.einsum("ij,nj->ni", turn.T, getattr(self.path, name))
+        return replace(self, path=self.path.replace(**columns), directions=None)
 
     @cached_property
     def probed(self) -> Mask:
@@ -198,6 +245,17 @@ def numbers_of(path: Toolpath, tools: Sequence[Tool], which: Index) -> Index:
 
 def _named(tool: Tool) -> str:
     return f"T{tool.number}" + (f" ({tool.kind})" if tool.kind else "")
+
+
+def frames_along(directions: Array) -> Array:
+    """Frames (k, 3, 3), their axes as columns, whose Z is a direction (k, 3): turned there from Z the short way."""
+    x, y, z = directions.T
+    down = z < -UPRIGHT
+    share = 1 / np.where(down, 1.0, 1 + z)
+    found = np.array([[1 - x * x * share, -x * y * share, x], [-x * y * share, 1 - y * y * share, y], [-x, -y, z]])
+    found = np.moveaxis(found, 2, 0)
+    found[down] = np.diag([1.0, -1.0, -1.0])
+    return found
 
 
 def tool_exists(tool: Tool) -> bool:

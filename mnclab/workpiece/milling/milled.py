@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -20,9 +21,10 @@ from mnclab.workpiece.milling.engaged import Engaged
 from mnclab.workpiece.milling.erosion import ERROR, ManyMoves
 from mnclab.workpiece.milling.moves import CHORD, STILL, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
-from mnclab.workpiece.milling.sections import Shadow, level, traced, upright
+from mnclab.workpiece.milling.sections import Shadow, UprightSection, level, traced, upright
 from mnclab.workpiece.milling.solid import creases
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
+from mnclab.workpiece.milling.tilted import Gaps, error_of, left_out, tilted_groups
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning.revolved import overhangs
@@ -37,11 +39,11 @@ THREADS = ("tap", "thread mill")
 def notes_of(cutting: Cutting, sweep: Sweep) -> Iterator[str]:
     """What is left out, and what looks other than it is."""
     yield from cutting.notes()
-    if cutting.tilted is not None and (out := cutting.cuts & cutting.tilted).any():
-        number = int(out.sum())
-        left = "is" if number == 1 else "are"
-        yield f"{several(number, 'row')} of a tool not along Z {left} left out ({cutting.lines(out)})"
     cuts = cutting.cuts
+    for out, what in left_out(cutting):
+        if (out := out & cuts).any():
+            number = int(out.sum())
+            yield f"{several(number, 'row')} {what} {'is' if number == 1 else 'are'} left out ({cutting.lines(out)})"
     for kind in THREADS:
         numbers = [number for number, tool in enumerate(cutting.tools) if tool.kind == kind]
         if (threads := cuts & (cutting.path.kind != Kind.RAPID) & np.isin(cutting.which, numbers)).any():
@@ -107,12 +109,16 @@ class Milled(Engaged):
         self.raster = Raster.over(bounds, float(step))
         self.step = self.raster.step
         self.moves: Moves = moves_of(cutting)
-        self.sweep = Sweep(self.raster, self.moves, self.blank_at, float(bounds[1, 2]))
+        self.tilted = tilted_groups(cutting)
+        before = cutting.stock.gaps if isinstance(cutting.stock, Clamped) else None
+        groups = self.tilted + (before.groups if before else ())
+        gaps = Gaps(groups, bounds, before) if groups else None
+        self.sweep = Sweep(self.raster, self.moves, self.blank_at, float(bounds[1, 2]), gaps=gaps)
         self.many = ManyMoves(self.sweep) if len(self.moves) > EXACT else None
         self.method, self.error = "exact sweep", CHORD if self.moves.chords else NOISE
         if self.many:
             self.method, self.error = "erosion of the height raster", ERROR * self.step
-        self.error = max(self.error, getattr(cutting.stock, "error", 0.0))
+        self.error = max(self.error, getattr(cutting.stock, "error", 0.0), error_of(cutting))
 
     @property
     def x(self) -> Array:
@@ -129,18 +135,22 @@ class Milled(Engaged):
 
     @cached_property
     def heights(self) -> Array:
-        if self.many:
+        if self.many and not self.sweep.gaps:
             return self.many.heights
         found = np.empty(self.raster.shape)
         top, floor = self.sweep.blank
         for tile in self.raster.tiles():
             x, y = self.raster.middles(tile)
-            found[tile] = self.sweep.within(x, y, top[tile].ravel(), floor[tile].ravel()).reshape(found[tile].shape)
+            if self.many and self.sweep.gaps:
+                here = self.sweep.gaps.sunk(x, y, self.many.heights[tile].ravel(), floor[tile].ravel())
+            else:
+                here = self.sweep.within(x, y, top[tile].ravel(), floor[tile].ravel())
+            found[tile] = here.reshape(found[tile].shape)
         return found
 
-    @property
+    @cached_property
     def floor(self) -> Array:
-        return self.sweep.blank[1]
+        return np.asarray(self.surface.over(self.surface.sides)[1]) if self.sweep.gaps else self.sweep.blank[1]
 
     def blank_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Upper and lower side of the blank at points (m,); beside it both are its lowest place."""
@@ -152,7 +162,9 @@ class Milled(Engaged):
     def surface(self) -> Sweep:
         """What sections, solids and pictures ask for heights: the exact sweep, of very many moves the map."""
         sweep = self.sweep
-        return Mapped(sweep.raster, sweep.moves, sweep.faces, sweep.top, self.heights) if self.many else sweep
+        if not self.many:
+            return sweep
+        return Mapped(sweep.raster, sweep.moves, sweep.faces, sweep.top, self.many.heights, gaps=sweep.gaps)
 
     def at(self, x: ArrayLike, y: ArrayLike) -> Array | float:
         """The height of the material at a place or at places, mm: exact, whatever the step."""
@@ -165,7 +177,7 @@ class Milled(Engaged):
         """The row of the path that cut a cell last (ny, nx), -1 where none did."""
         if self.many:
             move = self.many.in_order[0]
-            return np.where(move < 0, -1, self.moves.row[move])
+            return self._of_gaps(np.where(move < 0, -1, self.moves.row[move]))
         found = np.full(self.raster.shape, -1, dtype=np.int64)
         for tile in self.sweep.tiles if len(self.moves) else ():
             x, y = self.raster.middles(tile)
@@ -175,6 +187,13 @@ class Milled(Engaged):
                 any_ = cut.any(axis=0)
                 last[any_] = self.moves.row[which[len(which) - 1 - cut[::-1].argmax(axis=0)]][any_]
             found[tile] = last.reshape(found[tile].shape)
+        return self._of_gaps(found)
+
+    def _of_gaps(self, found: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The same where a tilted tool has made the top."""
+        for tile in self.raster.tiles() if self.sweep.gaps else ():
+            row = self.sweep.gaps.last(*self.raster.middles(tile), self.heights[tile].ravel()).reshape(found[tile].shape)
+            found[tile] = np.where(row >= 0, row, found[tile])
         return found
 
     @property
@@ -183,9 +202,17 @@ class Milled(Engaged):
 
     @property
     def _removed(self) -> float:
-        if not len(self.moves):
+        if not len(self.moves) and not self.tilted:
             return 0.0
+        if self.many and self.sweep.gaps:
+            return self.many.removed + float(self.sweep.over(self._by_tilted).sum()) * self.step**2
         return self.many.removed if self.many else volumes.removed(self.sweep, self.heights)
+
+    def _by_tilted(self, x: Array, y: Array) -> Array:
+        """How much (m,), mm, tilted tools take besides very many upright moves, at points close together."""
+        assert self.sweep.gaps is not None
+        top, (_, floor) = Mapped.sides(replace(self.surface, gaps=None), x, y)[0], self.sweep.faces(x, y)
+        return self.sweep.gaps.taken(x, y, top, top, floor)
 
     @cached_property
     def _by_row(self) -> Array:
@@ -207,6 +234,9 @@ class Milled(Engaged):
         (x0, y0, _), (x1, y1, _) = self.cutting.stock.bounds.tolist()
         if plane == "XY":
             return level(self.surface, at, *self._around)
+        if self.sweep.gaps:
+            along = 0 if plane == "XZ" else 1
+            return traced(UprightSection(self.surface, at, along), self._around[along], self._upwards)
         if plane == "XZ":
             return upright(lambda x: self._sides(x, np.full_like(x, at)), x0, x1, self.step / ALONG)
         return upright(lambda y: self._sides(np.full_like(y, at), y), y0, y1, self.step / ALONG)
@@ -217,6 +247,12 @@ class Milled(Engaged):
         edges = (self.step * (np.arange(-1, n + 1) + 0.5) for n in reversed(self.raster.shape))
         x, y = (np.asarray(low + places) for low, places in zip(self.raster.low, edges))
         return x, y
+
+    @property
+    def _upwards(self) -> Array:
+        """Heights a cell apart, from below the part to above it."""
+        low, high = self.bounds[:, 2].tolist()
+        return np.asarray(low + self.step * (np.arange(-1, int(np.ceil((high - low) / self.step)) + 1) + 0.5))
 
     @cached_property
     def _shadow(self) -> list[Contour]:
@@ -249,6 +285,7 @@ class Milled(Engaged):
 
     def made_by(self) -> Iterator[tuple[Moves, Placement]]:
         yield self.moves, Placement()
+        yield from self.tilted
         if isinstance(self.cutting.stock, Clamped):
             yield from self.cutting.stock.made_by()
 
@@ -257,7 +294,7 @@ class Milled(Engaged):
 
     @property
     def part(self) -> Part:
-        return Touched(self.cutting.stock, self.moves).part
+        return Touched(self.cutting.stock, self.moves, self.tilted).part
 
     def solid(self) -> Solid:
         """The top with its walls at their true places, the sides and the lower side of the blank."""

@@ -6,6 +6,7 @@ Arcs in other planes, and arcs whose ends do not lie on one circle, become chord
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -176,6 +177,11 @@ def moves_of(cutting: Cutting, rows: Mask | None = None, chord: float = CHORD) -
     sweep = np.where(arcs, path.sweep[row] * np.sign(path.axis[row, 2]), 0.0)
     radius, flat, corner, slope = cutters[cutting.which[row]].T.copy()
     return Moves(row, start, end, arcs, centre, sweep, radius, flat, corner, slope)
+
+
+def joined(pieces: Sequence[Moves]) -> Moves:
+    """Moves one after the other."""
+    return Moves(**{name: np.concatenate([getattr(each, name) for each in pieces]) for name in vars(pieces[0])})
 
 
 def _about_z(path: Toolpath, rows: Index) -> Mask:

@@ -107,14 +107,24 @@ class HeightSection:
     height: float
 
     def __call__(self, x: Array, y: Array) -> Mask:
-        return self._among(*self.sweep.sides_at(x, y))
+        if self.sweep.gaps is None:
+            return self._among(x, y, *self.sweep.sides_at(x, y))
+        found = np.zeros(len(x), dtype=bool)
+        for some in grouped(x, y, self.sweep.raster.tile):
+            found[some] = self.nearby(x[some], y[some])
+        return found
 
     def nearby(self, x: Array, y: Array) -> Mask:
         """The same, of points that lie close together."""
-        return self._among(*self.sweep.sides(x, y))
+        return self._among(x, y, *self.sweep.sides(x, y))
 
-    def _among(self, heights: Array, floor: Array) -> Mask:
-        return np.asarray((floor <= self.height) & (self.height < heights))
+    def _among(self, x: Array, y: Array, heights: Array, floor: Array) -> Mask:
+        return self._between(x, y, self.height, heights, floor)
+
+    def _between(self, x: Array, y: Array, z: Array | float, heights: Array, floor: Array) -> Mask:
+        """Whether there is material at heights z (m,)."""
+        found, gaps = np.asarray((floor <= z) & (z < heights)), self.sweep.gaps
+        return found if gaps is None else found & ~gaps.empty(x, y, z)
 
     def about(self, x: Array, y: Array) -> HeightSection:
         return replace(self, sweep=self.sweep.about(x, y))
@@ -123,8 +133,24 @@ class HeightSection:
 class Shadow(HeightSection):
     """Whether there is material at points (m,) at any height."""
 
-    def _among(self, heights: Array, floor: Array) -> Mask:
+    def _among(self, x: Array, y: Array, heights: Array, floor: Array) -> Mask:
         return np.asarray(heights - floor > WALL)
+
+
+@dataclass(frozen=True, eq=False)
+class UprightSection(HeightSection):
+    """Whether there is material at points (m,) of an upright plane: `along` 0 for X, 1 for Y, and Z; `height` is where the
+    plane stands."""
+
+    along: int
+
+    def nearby(self, x: Array, y: Array) -> Mask:
+        beside = np.full_like(x, self.height)
+        place = (x, beside) if self.along == 0 else (beside, x)
+        return self._between(*place, y, *self.sweep.sides(*place))
+
+    def about(self, x: Array, y: Array) -> UprightSection:
+        return self
 
 
 def level(sweep: Sweep, height: float, x: Array, y: Array) -> list[Contour]:

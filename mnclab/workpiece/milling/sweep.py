@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mnclab.path.toolpath import Array, Index
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import AT_ONCE, SMALL, TILE, Raster, in_order, lowered, near
 from mnclab.workpiece.milling.swept import left_by
+from mnclab.workpiece.milling.tilted import Gaps
 
 MANY = 5_000  # moves, beyond which tiles are small
 ACROSS = 8  # tiles along the longer side of a coarse map, at least
@@ -22,12 +23,16 @@ Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """`faces` are the upper and lower side of the blank, which are equal where there is none; `top` is its highest place."""
+    """`faces` are the upper and lower side of the blank, which are equal where there is none; `top` is its highest place.
+
+    `gaps` are what tools took away that do not stand along Z.
+    """
 
     raster: Raster
     moves: Moves
     faces: Faces
     top: float
+    gaps: Gaps | None = field(default=None, kw_only=True)
 
     @cached_property
     def boxes(self) -> Array:
@@ -41,10 +46,7 @@ class Sweep:
     @cached_property
     def blank(self) -> tuple[Array, Array]:
         """The upper and lower side of the blank (ny, nx) at the middles of the cells."""
-        top, floor = np.empty(self.raster.shape), np.empty(self.raster.shape)
-        for tile in self.raster.tiles():
-            for whole, side in zip((top, floor), self.faces(*self.raster.middles(tile))):
-                whole[tile] = side.reshape(whole[tile].shape)
+        top, floor = self.over(self.faces)
         return top, floor
 
     def left(self, x: Array, y: Array) -> Array:
@@ -53,17 +55,22 @@ class Sweep:
 
     def sides(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The heights and the lower side (m,) at points that lie close together."""
-        top, floor = self.faces(x, y)
-        return self.within(x, y, top, floor), floor
+        return self.between(x, y, *self.faces(x, y))
+
+    def between(self, x: Array, y: Array, top: Array, floor: Array) -> tuple[Array, Array]:
+        """The same of a blank between two sides there."""
+        found = np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+        return self.gaps.sides(x, y, found, floor) if self.gaps else (found, floor)
 
     def within(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
-        """The heights (m,) at points that lie close together, of a blank between two sides there."""
-        return np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+        """The heights alone."""
+        return self.between(x, y, top, floor)[0]
 
     def taken(self, x: Array, y: Array) -> Array:
         """How much of the blank is gone (m,), mm, at points that lie close together."""
         top, floor = self.faces(x, y)
-        return np.asarray(top - self.within(x, y, top, floor))
+        left = np.maximum(lowered(self.moves, self.boxes, x, y, top), floor)
+        return self.gaps.taken(x, y, top, left, floor) if self.gaps else np.asarray(top - left)
 
     def at(self, x: Array, y: Array) -> Array:
         """The heights (m,) at points anywhere."""
@@ -71,10 +78,18 @@ class Sweep:
 
     def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The heights and the lower side (m,) at points anywhere."""
-        (top, floor), found = self.faces(x, y), np.empty(len(x))
+        (top, floor), found = self.faces(x, y), np.empty((2, len(x)))
         for some in grouped(x, y, self.raster.step * min(TILE, max(self.raster.shape) / ACROSS)):
-            found[some] = self.within(x[some], y[some], top[some], floor[some])
-        return found, floor
+            found[:, some] = self.between(x[some], y[some], top[some], floor[some])
+        return found[0], found[1]
+
+    def over(self, of: Callable[[Array, Array], Any]) -> Any:
+        """What some function of points close together gives at the middles of all cells (…, ny, nx)."""
+        tiles = [(tile, np.asarray(of(*self.raster.middles(tile)))) for tile in self.raster.tiles()]
+        found = np.empty((*tiles[0][1].shape[:-1], *self.raster.shape))
+        for tile, values in tiles:
+            found[..., *tile] = values.reshape(found[..., *tile].shape)
+        return found
 
     def in_order(self, x: Array, y: Array) -> Iterator[tuple[Index, Array, Array]]:
         """For some moves after the other, at points close together: which (k,), the heights before each and after (k, m)."""
@@ -101,7 +116,8 @@ class Mapped(Sweep):
         right, above, u, v = np.minimum(i + 1, nx - 1), np.minimum(j + 1, ny - 1), u - i, v - j
         between = (z[j, i] * (1 - u) + z[j, right] * u) * (1 - v) + (z[above, i] * (1 - u) + z[above, right] * u) * v
         top, floor = self.faces(x, y)
-        return np.asarray(np.clip(between, floor, top)), floor
+        between = np.clip(between, floor, top)
+        return self.gaps.sides(x, y, between, floor) if self.gaps else (between, floor)
 
     def sides_at(self, x: Array, y: Array) -> tuple[Array, Array]:
         return self.sides(x, y)

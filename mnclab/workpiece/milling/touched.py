@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 
 import numpy as np
@@ -20,6 +21,7 @@ from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped
 from mnclab.workpiece.milling.moves import STILL, Moves
 from mnclab.workpiece.milling.raster import lowered
+from mnclab.workpiece.milling.tilted import Gaps, Group
 from mnclab.workpiece.part import Part
 
 FAR = 8.0  # mm, beyond which a distance is no longer looked for, and only bounded from below
@@ -34,10 +36,18 @@ NARROWINGS = 60  # of the place on a slope where a tool stands deepest about a p
 
 @dataclass(frozen=True, eq=False)
 class Touched:
-    """A blank and the moves that cut it, in the same coordinates."""
+    """A blank and the moves that cut it, in the same coordinates; those of `tilted` tools by their directions."""
 
     stock: Blank
     moves: Moves
+    tilted: tuple[Group, ...] = ()
+
+    @cached_property
+    def gaps(self) -> Gaps | None:
+        """What tilted tools took away, of the blank too."""
+        before = self.stock.gaps if isinstance(self.stock, Clamped) else None
+        groups = self.tilted + (before.groups if before else ())
+        return Gaps(groups, np.asarray(self.stock.bounds)) if groups else None
 
     @property
     def part(self) -> Part:
@@ -71,8 +81,8 @@ class Touched:
         return np.asarray(np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0))
 
     def _before(self, points: Array) -> Iterator[tuple[Array, Array]]:
-        """As `depths` has it of the moves that cut the blank in former clampings."""
-        for moves, placement in self.stock.made_by() if isinstance(self.stock, Clamped) else ():
+        """As `depths` has it of the moves of tilted tools, and of those that cut the blank in former clampings."""
+        for moves, placement in (*self.tilted, *(self.stock.made_by() if isinstance(self.stock, Clamped) else ())):
             own = placement.back(points)
             if len(moves := _about(moves, own, FAR)):
                 depth, feet = depths(moves, own)
@@ -101,7 +111,8 @@ class Touched:
     def _material(self, moves: Moves, points: Array) -> Mask:
         """Which points stand in the material."""
         floor, top = self._columns(moves, points[:, 0], points[:, 1])
-        return np.asarray((floor <= points[:, 2]) & (points[:, 2] <= top))
+        found = np.asarray((floor <= points[:, 2]) & (points[:, 2] <= top))
+        return found & ~self.gaps.empty(*points.T) if self.gaps else found
 
     def _columns(self, moves: Moves, x: Array, y: Array) -> tuple[Array, Array]:
         """From where to where the material reaches at points (m,); empty columns are upside down."""
@@ -110,6 +121,8 @@ class Touched:
         found = np.where(inside, top, -np.inf)
         if inside.any() and len(moves):
             found[inside] = lowered(moves, moves.boxes, x[inside], y[inside], top[inside])
+        if inside.any() and self.gaps:
+            found[inside], floor[inside] = self.gaps.sides(x[inside], y[inside], np.fmax(found, floor)[inside], floor[inside])
         stands = found > floor
         return np.where(stands, floor, np.inf), np.where(stands, found, -np.inf)
 

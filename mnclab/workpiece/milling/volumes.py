@@ -34,7 +34,7 @@ def removed(sweep: Sweep, heights: Array) -> float:
     """What all moves took away together, mm³; `heights` (ny, nx) are what they leave at the middles."""
     rims, raster, (top, _) = Rims(sweep), sweep.raster, sweep.blank
     walls, bends, pairs = np.zeros(raster.shape, dtype=bool), np.zeros(raster.shape, dtype=bool), np.zeros(2, dtype=np.int64)
-    taken, ends = top - heights, blank_ends(sweep)
+    taken, ends = sweep.over(sweep.taken) if sweep.gaps else top - heights, blank_ends(sweep)
     bent = _bent(taken)
     for tile in raster.tiles():
         x, y = raster.middles(tile)
@@ -63,6 +63,8 @@ def _bent(taken: Array) -> Mask:
 
 def removed_by_row(sweep: Sweep, rows: int) -> Array:
     """What each of so many rows took away (rows,), mm³, on a coarser lattice."""
+    if sweep.gaps:
+        return _in_turn(sweep, rows)
     rims, raster, found = Rims(sweep), sweep.raster, np.zeros(rows)
     for tile in sweep.tiles:
         x, y = raster.middles(tile)
@@ -75,6 +77,21 @@ def removed_by_row(sweep: Sweep, rows: int) -> Array:
                     taken = before - after
                     volumes = np.where(taken > NOISE, taken, 0.0).sum(axis=1) * raster.step**2 / count
                     np.add.at(found, sweep.moves.row[which], volumes)
+    return found
+
+
+def _in_turn(sweep: Sweep, rows: int) -> Array:
+    """The same of moves of several directions, at the middles of cells and at a lattice where these tell too little; of fewer
+    columns where many moves come near."""
+    assert sweep.gaps is not None
+    raster, found = sweep.raster, np.zeros(rows)
+    bent = _bent(sweep.over(sweep.taken)) | blank_ends(sweep)
+    for tile in raster.tiles():
+        (x, y), some = raster.middles(tile), bent[tile].ravel()
+        spots = within(x[some], y[some], raster.step, ROUGH)
+        for points, count in (((x[~some], y[~some]), 1), (spots, ROUGH[0])):
+            if len(points[0]):
+                found += sweep.gaps.shares(sweep.moves, sweep.faces, *points, rows) * raster.step**2 / count
     return found
 
 
