@@ -50,6 +50,23 @@ def reference(m: Machine) -> Place:
     return x, y, z
 
 
+def in_machine(m: Machine) -> Array:
+    """The map (4, 4) from coordinates of the program to those of the linear axes, while rotary axes stand."""
+    kinematics = m.tables.kinematics
+    if kinematics is None:
+        return m.matrix
+    return frames.inverse(kinematics.carried(np.array(m.rotary), m.tool.effective_length)) @ m.matrix
+
+
+def tip_below(m: Machine, place: Place) -> Place:
+    """Where the tip is on the part while the spindle reference stands at X Y Z, machine coordinates."""
+    kinematics, length = m.tables.kinematics, m.tool.effective_length
+    if kinematics is None:
+        return place[0], place[1], place[2] - length
+    x, y, z = kinematics.tips(np.array(place), np.array(m.rotary), length).tolist()
+    return x, y, z
+
+
 def begin(m: Machine) -> None:
     """A machine with kinematics stands with its spindle reference at the start of the setup, its rotary axes at home."""
     kinematics = chain(m)
@@ -87,6 +104,13 @@ def reckon(m: Machine, with_axes: Place | None) -> None:
     """Coordinates count from now on with A, B, C at angles, rad; None: as they stand, the tip is led. No axis moves."""
     m.put(reckoned=with_axes)
     stand(m)
+
+
+def reckon_here(m: Machine, with_axes: Place) -> None:
+    """The same for this block alone; what acts behind it counts as before."""
+    before = m.reckoned
+    reckon(m, with_axes)
+    m.at_block_end(lambda: reckon(m, before))
 
 
 def stand(m: Machine) -> None:
@@ -270,8 +294,10 @@ def allowed(m: Machine) -> float:
 
 
 def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
-    """An Alarm where the machine lacks an axis that would turn, or where one would leave its limits."""
+    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour."""
     kinematics = chain(m)
+    if m.recorded_only or m.side:
+        m.alarm(f"rotary axes cannot turn {'within a contour' if m.recorded_only else 'under radius compensation'}", word)
     for name, new, old in zip(NAMES, to, angles(m), strict=True):
         if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
             m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)

@@ -191,7 +191,7 @@ def _tool(what: str, given: Any) -> None:
         raise Alarm(f"{what} must be a Tool, got {shown(given)}", hint=hint)
 
 
-TURNS = 'the rotary axes of the machine: Setup(kinematics="table-ac"), or mnclab.Kinematics(table=(mnclab.Axis("C"),))'
+TURNS = 'the rotary axes of the machine, or the name of one that has some: Setup(kinematics="table-ac")'
 
 #: What each part of a setup is: what checks it, and the hint of an alarm about it.
 MEANT: Mapping[str, tuple[Check, str]] = {

@@ -11,8 +11,8 @@ from mnclab.machine.axes import lengths_of_rows, references
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Toolpath
 from mnclab.runs.history import History
-from mnclab.text.alarm import several
-from mnclab.text.given import FigureOptions, choice, fitting_class
+from mnclab.text.alarm import Absent, several
+from mnclab.text.given import FigureOptions, choice, fitting_class, shown
 from mnclab.text.tables import Columned, Pictured, html_table, text_table
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class AxisPositions(Pictured, Columned):
         self.lengths = lengths_of_rows(path.step, changes, first)
         found = references(path, path.end, np.arange(len(path)), self.lengths)
         self.path, self.line = path, path.line
-        self._axes = np.concatenate([found, np.degrees(path.rotary)], axis=1)
+        self._axes = np.concatenate([found, np.degrees(path.rotary).round(12)], axis=1)  # 30 degrees in rad and back are not 30
         self.X, self.Y, self.Z, self.A, self.B, self.C = self._axes.T
 
     def __len__(self) -> int:
@@ -49,9 +49,14 @@ class AxisPositions(Pictured, Columned):
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         return np.array(self._axes, dtype=dtype)
 
-    def __getitem__(self, name: str) -> Array:
-        """A column by its name."""
-        column: Array = getattr(self, choice(name, "an axis", NAMES))
+    def __getitem__(self, which: Any) -> Array:
+        """A column by its name, or rows (…, 6) by their numbers."""
+        if not isinstance(which, str):
+            try:
+                return np.asarray(self._axes[which])
+            except IndexError:
+                raise Absent(f"the axes have {several(len(self), 'row')}: there is no row {shown(which)}") from None
+        column: Array = getattr(self, choice(which, "an axis", NAMES))
         return column
 
     def course(self) -> tuple[Array, Array]:

@@ -1,10 +1,7 @@
 """The player of machines whose rotary axes turn: where it shows axes, tool and part, against the chain in Python and by hand."""
 
-import re
-
 import numpy as np
 import pytest
-from tools.pages import BEGUN
 
 import mnclab as mnc
 
@@ -41,29 +38,6 @@ def made(machine, text=None):
                   mnc.Setup(tools=tools, kinematics=machine, stock=BLOCK, presets={0: (100, -50, -200)}))  # fmt: skip
     assert run.ok, run.alarms
     return run
-
-
-@pytest.fixture
-def opened(browser, tmp_path):
-    """opened(run) opens the saved page; a word of its console fails the test."""
-    faults, contexts = [], []
-
-    def open_page(run):
-        context = browser.new_context(viewport={"width": 1366, "height": 768})
-        contexts.append(context)
-        context.set_offline(True)
-        context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
-        page = context.new_page()
-        page.on("console", lambda message: "ReadPixels" in message.text or faults.append(message.text))
-        page.on("pageerror", lambda error: faults.append(str(error)))
-        page.goto(run.save(tmp_path / "axes.html").as_uri())
-        page.evaluate(BEGUN)
-        return page
-
-    yield open_page
-    for context in contexts:
-        context.close()
-    assert faults == []
 
 
 @pytest.mark.parametrize("machine", ["table-ac", "head-bc", "head-b-table-c"])

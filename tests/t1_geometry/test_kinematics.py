@@ -1,7 +1,9 @@
 """Chains of rotary axes: forward and inverse against each other, closed forms, and what a chain cannot do."""
 
 import itertools
+import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -141,3 +143,26 @@ def test_limits_choose_the_other_way_or_none():
 def test_what_is_none(wrong, said):
     with pytest.raises(Alarm, match=said):
         wrong()
+
+
+RECORDED = json.loads((Path(__file__).parents[1] / "authorities" / "kinematics.json").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("module, tilting", [("xyzac-trt", "A"), ("xyzbc-trt", "B")])
+def test_tables_of_linuxcnc(module, tilting):
+    """The tips that LinuxCNC's own modules give (recorded). Version 2.9 turns the other way than ISO 841: so do the axes here.
+
+    C stands at the rotation point, the tilting axis by the offsets beside it; the tip there counts the tool along Z in.
+    """
+    for case in RECORDED[module]:
+        pins, joints = case["pins"], case["joints"]
+        centre = np.array([pins[f"{axis}-rot-point"] for axis in "xyz"])
+        beside = centre + [pins[f"{axis}-offset"] for axis in "xyz"]
+        backwards = tuple(-np.eye(3)["ABC".index(tilting)])
+        table = (Axis(tilting, tuple(beside), backwards), Axis("C", tuple(centre), (0, 0, -1)))
+        axes = np.zeros(6)
+        axes[:3], axes[3 + "ABC".index(tilting)], axes[5] = joints[:3], joints[3], joints[4]
+        tip, _ = Kinematics(table=table).forward([axes], pins["tool-offset"])
+        np.testing.assert_allclose(tip[0] + [0, 0, pins["tool-offset"]], case["tip"], atol=1e-9)
+        as_iso = Kinematics(table=(Axis(tilting, tuple(beside)), Axis("C", tuple(centre))))  # a twin that must not fit
+        assert np.abs(as_iso.forward([axes], pins["tool-offset"])[0][0] + [0, 0, pins["tool-offset"]] - case["tip"]).max() > 1

@@ -14,8 +14,7 @@ _LATHE = "it belongs to a lathe: choose control=\"jnc-t01\" or write the program
 _PROBE = "not built: a move until a probe touches; write the places that it would find as numbers"
 _WRITTEN = "not built: write the motion itself"
 _SIDES = "write a program for each side, or for the tnc-620, which has"
-_TIP = f"not built: the tip is led where rotary axes turn (TCP); {_SIDES} M128"
-_TILTED = f"not built: a tilted working plane; {_SIDES} PLANE SPATIAL"
+_TIP = "not built: the tip is led and the tool lies along I J K; write G43.4 and the angles A, B, C"
 
 REFUSED = (
     dict.fromkeys(("G71.1", "G71.2", "G72.1", "G72.2"), _LATHE)
@@ -25,9 +24,9 @@ REFUSED = (
     | dict.fromkeys(("G12", "G13", "G47", "G150"), _WRITTEN)
     | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines; write lines or arcs")
     | dict.fromkeys(("G17.1", "G18.1", "G19.1"), "not built: planes of the axes U, V and W; write G17, G18 or G19")
-    | dict.fromkeys(("G43.4", "G43.5", "G234"), _TIP) | dict.fromkeys(("G53.1", "G68.2", "G68.3"), _TILTED)
+    | {"G43.5": _TIP}
     | {"G43.2": "not built: a length on top of another (LinuxCNC); write their sum into one row of the tool table",
-       "G254": "not built: the datum turns with the rotary axes (Haas); write one datum for each side, G54 to G59"}
+       "G254": "not built: the datum turns with the rotary axes (Haas); write G268 and G253, or G234, which leads the tip"}
     | dict.fromkeys("UVW", "increments of a lathe, or axes that are not built: write X, Y or Z under G91")
     | {"G101": "the mirror image of Haas: write G51.1 and the axes with 0", "G100": "no mirror image, of Haas: write G50.1"}
     | {"M97": "not built: a subprogram from a block of this program on (Haas); write it as a program O… and call it by M98",

@@ -140,6 +140,8 @@ SETTINGS = PROGRAM + MACROS + MOTION + COORDINATES + TECHNOLOGY + HOLES
 _CENTRES = {f"G{n} {letter}": f"centre along {axis}, from the start or, after G90.1, the origin"
             for n in (2, 3) for letter, axis in zip("IJK", "XYZ")}  # fmt: skip
 
+TILTS = ("G68.2", "G68.4", "G268", "G68.3")
+
 MEANINGS = {
     **_CENTRES,
     **{f"G51 {letter}": f"factor along {axis}" for letter, axis in zip("IJK", "XYZ")},
@@ -152,6 +154,14 @@ MEANINGS = {
     **{f"G92.1 {axis}": f"ends the shift along {axis}" for axis in "XYZ"},
     **{f"G10 {axis}": f"{axis} of the row" for axis in "XYZ"},
     **{f"G43.1 {axis}": f"offset along {axis}" for axis in "XYZ"},
+    **{f"{code} {axis}": f"{axis} of the origin of the plane" for code in TILTS for axis in "XYZ"},
+    **{f"{code} {letter}": f"{which} angle, degrees, or component of a direction" for code in TILTS[:2]
+       for letter, which in zip("IJK", ("first", "second", "third"))},
+    **{f"G268 {letter}": f"turn about {axis}, degrees" for letter, axis in zip("IJK", "XYZ")},
+    **{f"{code} P": "how the plane is said, 0 to 4" for code in TILTS[:2]},
+    **{f"{code} Q": "order of the rotations, or number of the block" for code in TILTS},
+    **{f"{code} R": "angle within the plane, degrees" for code in TILTS},
+    "G53.1 P": "which of two ways: 1 the tilting axis above 0, 2 below",
     **{axis: f"angle of the rotary axis {axis}, degrees" for axis in "ABC"},
     "R": "radius", "G4 P": "the time, counted as the setting dwell_p says", "G4 X": "seconds",
     "G2 P": "number of turns", "G3 P": "number of turns", "G68 R": "angle, degrees", "G51 P": "factor of all axes",

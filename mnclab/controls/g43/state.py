@@ -60,6 +60,7 @@ class Memory(motion.Memory):
     angle: float = 0.0  # of G68, degrees
     mirrored: dict[int, float] = field(default_factory=dict)  # axis -> the line of G51.1, mm
     polar: Polar | None = None
+    plane_points: tuple[int, dict[int, list[float]]] | None = None  # of a G68.2 in several blocks: its P, and what they said
     doubt: Doubt | None = None
     absolute_centres: bool = False  # of arcs: G90.1
     references: dict[int, Offsets] = field(default_factory=dict)  # G28.1, G30.1, machine coordinates of the spindle, mm

@@ -34,7 +34,7 @@ SCRIPTS = (
 )  # fmt: skip
 #: What is only in the pages that cut, by whether the machine is a lathe.
 CUTTING = {
-    False: ("swept", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface", "shown_part"),
+    False: ("swept", "leaning", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface", "shown_part"),
     True: ("space", "bodies", "columns", "turned", "section", "rims"),
 }
 #: What is only in the pages of machines whose rotary axes swing the tip.

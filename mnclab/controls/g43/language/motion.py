@@ -13,7 +13,8 @@ from mnclab.controls.g43.settings import REFERENCES
 from mnclab.controls.g43.state import ISO, Offsets, Polar, memory, seconds_of_p, silent, undescribed, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import ARCS, AXES, CENTRE, SPINDLE, first_word
-from mnclab.machine.axes import travel, turn_axes
+from mnclab.machine.axes import in_machine, reckon, tip_below, travel, turn_axes
+from mnclab.machine.axes import reference as spindle_reference
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.coordinates import AXES as ROTARY
 from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
@@ -49,6 +50,8 @@ def go(m: Machine, to: dict[str, float], turned: Angles | None, rapid: bool, wor
     if turned is not None and turned != angles(m):
         if m.tables.kinematics is not None:
             travel(m, turned, m.target(to.get("x"), to.get("y"), to.get("z")) if to else None, f, word)
+            if m.reckoned is not None and "tilt" in m.frames:  # the plane stays on the part
+                reckon(m, m.rotary)
             return
         if math.dist(m.to_machine(m.target(to.get("x"), to.get("y"), to.get("z"))), m.tip) <= 1e-9:  # a frame rounds
             turn_axes(m, turned, f)
@@ -161,6 +164,10 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
 def targets(m: Machine, words: Words) -> dict[str, float]:
     """Where the axes that are written go; their offsets count from now on."""
     kept = memory(m)
+    if kept.plane_points is not None:
+        way, points = kept.plane_points
+        said = ", ".join(f"Q{k}" for k in sorted(points) if k >= 0)
+        m.alarm(f"G68.2 P{way} describes no plane yet: only {said} came before this motion", first_word(words))
     if kept.polar is not None and not kept.machine_coordinates:
         to = polar_targets(m, words)
     else:
@@ -258,7 +265,7 @@ def tip_at(m: Machine, number: int) -> Offsets:
     x, y, z = memory(m).references.get(number, (0.0, 0.0, 0.0))
     if number > 1 and number not in memory(m).references:
         x, y, z = (float(m.settings[f"{REFERENCES[number]}_reference_{axis}"]) for axis in "xyz")
-    return x, y, z - m.tool.effective_length
+    return tip_below(m, (x, y, z))
 
 
 @FUNCTIONS("G28", TITLES, takes="X Y Z A B C", still=True, owns=True, modal=False, source=ISO)
@@ -267,6 +274,8 @@ def reference(m: Machine, words: Words) -> None:
     """The axes written go to their points at rapid, then to the reference point (G30: of number P); without axes all go."""
     undescribed(m, words)
     motion.uncompensated(m, words)
+    if m.reckoned is None:
+        m.alarm(f"{words.code} cannot stand while the tip is led (G43.4)", first_word(words), hint="write G49 first")
     number = 1 if words.code == "G28" else whole(m, words, "P", 2, 4) if "P" in words else 2
     to, turned = targets(m, words), angles_of(m, words)
     refuse_crooked(m, words, to)
@@ -283,10 +292,11 @@ def refuse_crooked(m: Machine, words: Words, to: dict[str, float]) -> None:
     """An Alarm where an axis of the program is none of the machine's: it could not go to its reference point alone."""
     if m.shift is not None or not to or len(to) == 3:
         return
+    matrix = in_machine(m)
     for axis in to:
         k = "xyz".index(axis)
-        row, column = m.matrix[k, :3].tolist(), m.matrix[:3, k].tolist()
-        if any(row[j] or column[j] for j in range(3) if j != k):
+        row, column = matrix[k, :3].tolist(), matrix[:3, k].tolist()
+        if any(max(abs(row[j]), abs(column[j])) > 1e-12 for j in range(3) if j != k):
             by = transformed(m) or "a turned work offset"
             m.alarm(f"{words.code} {axis.upper()} cannot stand while {by} is active: the axis is turned", words[axis.upper()])
 
@@ -324,5 +334,4 @@ def check(m: Machine, words: Words) -> None:
 @FUNCTIONS("G28.1 G30.1", SETTING, phase="local", still=True, modal=False, source="LinuxCNC")
 def set_reference(m: Machine, words: Words) -> None:
     """The present place of the spindle becomes the reference point. No motion."""
-    x, y, z = m.tip
-    memory(m).references[1 if words.code == "G28.1" else 2] = (x, y, z + m.tool.effective_length)
+    memory(m).references[1 if words.code == "G28.1" else 2] = spindle_reference(m)

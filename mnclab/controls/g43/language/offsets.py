@@ -9,6 +9,7 @@ from mnclab.controls.g43.state import ISO, NONE, Doubt, has_point, memory, undes
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, CENTRE, first_word
 from mnclab.geometry import frames
+from mnclab.machine import axes
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.machine import Machine
@@ -21,9 +22,9 @@ from mnclab.text.program import Word
 # has both. Switching moves nothing: the tip stays, and the coordinates of the tool are read anew.
 
 FUNCTIONS = FunctionTable()
-CODES = {"mirror": "G51.1", "rotation": "G68", "scaling": "G51"}
-ENDS = {"mirror": "G50.1", "rotation": "G69", "scaling": "G50"}
-ROTATION = {"G68": "Rotation on", "G69": "Rotation off"}
+CODES = {"tilt": "G68.2", "mirror": "G51.1", "rotation": "G68", "scaling": "G51"}
+ENDS = {"tilt": "G69", "mirror": "G50.1", "rotation": "G69", "scaling": "G50"}
+ROTATION = "Rotation on"
 SCALING = {"G51": "Scaling on", "G50": "Scaling off"}
 MIRROR = {"G51.1": "Mirror image on", "G50.1": "Mirror image off"}
 SAME = 1e-9
@@ -81,6 +82,7 @@ def centre(m: Machine, words: Words, name: str) -> list[float]:
 @FUNCTIONS("G68", ROTATION, group="rotation", phase="transformation", takes="X Y Z R", still=True, owns=True, source=ISO)
 def rotation(m: Machine, words: Words) -> None:
     """Turns the plane by R degrees about a point, by default where the tool stands; R adds under G91 (setting g68_increment)."""
+    refuse_transformed(m, words, "tilt")
     if "R" not in words:
         m.alarm("G68 R (angle) is missing", first_word(words))
     _, _, normal = PLANES[m.plane]
@@ -98,9 +100,8 @@ def rotation(m: Machine, words: Words) -> None:
     switch(m, "rotation", frames.turn(math.radians(angle), AXES[normal].lower(), about), words)
 
 
-@FUNCTIONS("G69", ROTATION, group="rotation", phase="transformation", power_on="G69", source=ISO)
 def rotation_off(m: Machine, words: Words) -> None:
-    """No motion."""
+    """The rotation is over; no motion."""
     memory(m).angle = 0.0
     if "rotation" in m.frames:
         m.log("rotation angle", 0.0)
@@ -203,6 +204,7 @@ def change(m: Machine, words: Words, row: int) -> None:
     if m.settings["dialect"] == "linuxcnc" and row == memory(m).row:  # it is not read anew
         m.origin_chosen = True
         return
+    refuse_transformed(m, words, "tilt")
     if on := transformed(m):
         m.warn(f"the work offset changes while {on} is active, which now counts from the new one", first_word(words))
     if m.settings["g92_lasts"] == "ends":
@@ -241,6 +243,8 @@ def machine_coordinates(m: Machine, words: Words) -> None:
         m.warn("G53 counts for nothing under G91: the block moves by its increments", first_word(words))
         return
     motion.leave_frames(m, [name for name, _ in m.frames])
+    if m.tables.kinematics is not None:
+        axes.reckon_here(m, (0.0, 0.0, 0.0))
     m.set_frame("length", frames.shift(z=-m.tool.effective_length))
 
 

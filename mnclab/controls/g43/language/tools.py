@@ -8,6 +8,7 @@ from mnclab.controls.g43.state import ISO, NONE, Offsets, memory, undescribed, w
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, COMPENSATION, SIDES, first_word
 from mnclab.geometry import frames
+from mnclab.machine.axes import reckon
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
@@ -27,10 +28,17 @@ WAYS = {"G43": ", positive", "G44": ", negative", "G49": " off"}
 TITLES = {code: f"Tool length compensation{way}" for code, way in WAYS.items()}
 
 
+def ends_leading(m: Machine) -> None:
+    """G43, G44 and G49 end G43.4: coordinates count as they do without it."""
+    if m.reckoned is None:
+        reckon(m, m.rotary if "tilt" in m.frames else (0.0, 0.0, 0.0))
+
+
 @FUNCTIONS("G43 G44 G49", TITLES, group="length compensation", phase="length", power_on="G49", source="7.1")
 def length_compensation(m: Machine, words: Words) -> None:
     """The offsets of corrector D count from the next motion along each axis on; without D the corrector stays."""
     motion.uncompensated(m, words)
+    ends_leading(m)
     memory(m).sign = SIGNS[words.code]
     memory(m).outlived &= words.code != "G49"
     want(m, first_word(words))
@@ -132,6 +140,9 @@ def place(m: Machine, keep: str) -> None:
     """The frame from programmed coordinates to the tip: the offsets that count, less the length of the tool."""
     x, y, z = memory(m).active_offsets
     shift = (x, y, z - m.tool.effective_length)
+    if m.tables.kinematics is not None and shift[2]:  # along the tool, where coordinates are reckoned with it tilted
+        along = m.tables.kinematics.orientation(m.rotary if m.reckoned is None else m.reckoned)[:, 2] * shift[2]
+        shift = x + float(along[0]), y + float(along[1]), float(along[2])
     m.set_frame("length", frames.shift(*shift) if any(shift) else None, keep)
 
 

@@ -18,6 +18,7 @@ from mnclab.controls.g43.state import ISO, memory, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, first_word
 from mnclab.geometry import frames
+from mnclab.machine.axes import reference
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import Datum
@@ -301,7 +302,7 @@ def on_machine(m: Machine, k: int) -> float | None:
     """The spindle reference, with the length of the tool; not known in a compensated contour."""
     if m.side:
         return None
-    return (m.tip[k] + (m.tool.effective_length if k == 2 else 0.0)) / m.variable_unit
+    return reference(m)[k] / m.variable_unit
 
 
 def in_program(m: Machine, k: int) -> float | None:
