@@ -34,9 +34,12 @@ SCRIPTS = (
 )  # fmt: skip
 #: What is only in the pages that cut, by whether the machine is a lathe.
 CUTTING = {
-    False: ("swept", "leaning", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface", "shown_part"),
+    False: (
+        "swept", "leaning", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface",
+        "shown_part",
+    ),
     True: ("space", "bodies", "columns", "turned", "section", "rims"),
-}
+}  # fmt: skip
 #: What is only in the pages of machines whose rotary axes swing the tip.
 TURNING = ("chain",)
 ROOM = "max(480px, 100vh - 210px)"  # below a cell of three lines in JupyterLab, down to its buttons

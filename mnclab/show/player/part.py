@@ -192,11 +192,11 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
 
 
 def _leaning(pack: Packer, cutting: Cutting, rows: Mask) -> dict[str, Any] | None:
-    """The direction of the tool on the rows (n,) on which it does not stand along Z, None on others; None where it always does."""
+    """The direction of the tool on the rows (n,) on which it stands tilted, None on others; None where it never does."""
     if cutting.directions is None or not rows.any():
         return None
-    at = np.flatnonzero(np.append(True, (np.diff(cutting.directions[:, 1], axis=0) != 0).any(axis=1) | (np.diff(rows) != 0)))
-    return changes(pack, at, [cutting.directions[row, 1].tolist() if rows[row] else None for row in at.tolist()])
+    at = np.flatnonzero(np.append(True, (np.diff(cutting.directions[:, -1], axis=0) != 0).any(axis=1) | (np.diff(rows) != 0)))
+    return changes(pack, at, [cutting.directions[row, -1].tolist() if rows[row] else None for row in at.tolist()])
 
 
 # To turn it: the bar, what each row takes away in the plane of z and r, the inserts. The areas are those of the kernel, as
