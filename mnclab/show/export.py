@@ -30,7 +30,8 @@ def save(run: Any, path: str | Path, **options: Any) -> Path:
     """Write a run to one file and return its path; an Alarm when nothing of this suffix can be written.
 
     Figures take the options of `Run.plot`; an svg also `true_size=True`, a drawing in true millimetres. Bodies (stl, gltf,
-    glb, vtk) are those of the part, with `of="path"` those of the path.
+    glb, vtk) are those of the part, with `of="path"` those of the path. Where rotary axes swing the tip, all files say where
+    it is on the part, as it lies with these axes at zero; only ngc says where the axes stand.
     """
     path, suffix = named(path, WRITERS, refused := "cannot write {} files")
     if suffix in BODIES:

@@ -4,6 +4,10 @@ Positions are those of the tool tip in the first work offset of the program, G54
 file runs under G40, for the tools it was made for. The path is followed exactly (G61), with a stop where the program
 asked for one (G61.1). Threads are G33, whose K is the way per turn of the spindle. The X of a lathe is a radius (G8).
 
+A machine whose rotary axes swing the tip goes by its axes: X Y Z are those of its spindle reference less the length of the tool,
+from the same offset, so that a machine whose axes turn about the same lines does the same, without leading the tip. The feed is
+that of X Y Z, or in degrees where they stand.
+
 What RS-274 has no plain word for is written another way or told in a comment: arcs in tilted planes become chords
 within `CHORD` mm, a probing move is a cut that ends where the probe touched.
 """
@@ -18,6 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.geometry.kinematics import UP
 from mnclab.path.toolpath import COLUMNS, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.columns import parts, spelled
 
@@ -26,6 +31,8 @@ DECIMALS = 6  # a millionth of a millimetre: LinuxCNC compares the radii of an a
 #: Number of a normal's axis -> plane, first and second axis, their words of the centre.
 PLANES = {2: ("G17", 0, 1, "IJ"), 1: ("G18", 2, 0, "KI"), 0: ("G19", 1, 2, "JK")}
 COOLANT = ("M7", "M8", "M9")
+STANDS = 1e-9  # mm
+Array = NDArray[np.float64]
 Words = NDArray[np.object_]
 
 
@@ -45,15 +52,22 @@ def text(run: Any) -> Iterator[str]:
     yield f"%\n{comment(f'{Path(run.program.name).name} for {run.control.title}, as plain moves')}\n"
     yield from (f"{comment(alarm.without_folders().headline)}\n" for alarm in run.alarms)
     yield f"G21 {'G18 G8' if run.toolpath.lathe else 'G17'} G90 G94 G91.1 G40 G49 G80 G54 G61\n"
-    path = plain(run.toolpath)
+    path = run.toolpath
+    if path.kinematics is not None and path.rotary.any():
+        yield f"{comment(f'X Y Z of the axes, less the length of the tool; {path.kinematics}')}\n"
+        path = by_axes(path, run.axes().lengths)
+    path = plain(path)
     writer = Writer(run, path.labels)
+    if path.kinematics is not None and any(path.kinematics.home):
+        writer.at[3:] = [number(angle) for angle in np.degrees(path.kinematics.home).tolist()]
+        yield "G0" + "".join(f" {name}{angle}" for name, angle in zip("ABC", writer.at[3:]) if angle != "0") + "\n"
     yield from ("".join(writer.rows(path[some])) for some in parts(len(path)))
     yield "M2\n%\n"
 
 
 def comment(text: str) -> str:
     """A comment: ASCII, and no bracket in it."""
-    clean = " ".join(text.translate({ord("("): "[", ord(")"): "]"}).split())
+    clean = " ".join(text.translate({ord("("): "[", ord(")"): "]", ord("°"): " degrees"}).split())
     return f"({clean.encode('ascii', 'replace').decode()})"
 
 
@@ -69,6 +83,31 @@ def plain(path: Toolpath) -> Toolpath:
         pieces += [path[at:row], copies.replace(**chords)]
         at = row + 1
     return concatenate([*pieces, path[at:]]) if pieces else path
+
+
+def by_axes(path: Toolpath, lengths: Array) -> Toolpath:
+    """The rows where the tip would be if no rotary axis had turned, which is where X Y Z stand; `lengths` (n,), mm, of the tools.
+
+    Feeds are those of X Y Z, rad/min where they stand.
+    """
+    kinematics = path.kinematics
+    assert kinematics is not None
+    before = np.concatenate([[kinematics.home], path.rotary[:-1]])
+
+    def hanging(tips: Array, angles: Array) -> Array:
+        found = kinematics.references(tips + path.origin, angles, lengths) - path.origin
+        return np.asarray(found - np.multiply.outer(lengths, UP))
+
+    start, end, centre = hanging(path.start, before), hanging(path.end, path.rotary), hanging(path.centre, path.rotary)
+    axis = np.einsum("nji,nj->ni", kinematics.carried(path.rotary, lengths)[:, :3, :3], path.axis)
+    turned = (path.rotary != before).any(axis=1)
+    still = turned & (np.linalg.norm(end - start, axis=1) < STANDS)
+    end[still] = start[still]
+    way, angle = np.linalg.norm(end - start, axis=1), np.linalg.norm(path.rotary - before, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        minutes = np.where(np.isfinite(path.time), path.time / 60, path.lengths / path.feed)
+        feed = np.where(turned & (path.kind == Kind.LINE), np.where(way > 0, way, angle) / minutes, path.feed)
+    return path.replace(start=start, end=end, centre=centre, axis=axis, feed=feed)
 
 
 class Writer:

@@ -110,6 +110,8 @@ PLAYER = {
     "holder": (f"{STEEL}66", f"{STEEL}66"),
     "chuck": (FIXTURE, "#4c5359"),
     "beam": (BEAM, "#66bb6a"),
+    "turning": (VIOLET, "#d39bec"),
+    "plane": (GREEN, "#5fd6a4"),
 }
 
 

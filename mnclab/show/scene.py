@@ -137,7 +137,9 @@ def _fitted(drawn: dict[str, np.ndarray]) -> list[np.ndarray]:
 
 def _add_tool(plotter: Any, run: Any, row: int, size: float) -> np.ndarray:
     """Add the tool after a row beside something of a `size`, mm; what of it (n, 3) the picture holds."""
-    found = solids.turning_tool_of(run, row, size) if run.toolpath.lathe else {"tool": solids.tool_of(run, row)}
+    found: dict[str, solids.Body | None] = {"tool": solids.tool_of(run, row), "holder": solids.holder_of(run, row)}
+    if run.toolpath.lathe:
+        found = {**solids.turning_tool_of(run, row, size)}
     shades = {"tool": looks.CARBIDE if run.toolpath.lathe else looks.TOOL_BODY, "holder": looks.STEEL}
     tip, held = run.toolpath.end[row], [np.empty((0, 3))]
     for name, body in found.items():

@@ -36,6 +36,10 @@ class Body(NamedTuple):
         """The body moved by a vector (3,) mm."""
         return Body(self.points + np.asarray(place, dtype=np.float64), self.triangles)
 
+    def turned(self, turn: NDArray[np.float64]) -> Body:
+        """The body turned about 0 0 0 by a matrix (3, 3)."""
+        return Body(self.points @ turn.T, self.triangles)
+
     @property
     def volume(self) -> float:
         """mm³, by the divergence theorem; positive when the outsides are outside."""
@@ -218,4 +222,22 @@ def tool_of(run: Any, row: int = -1) -> Body | None:
         return Body(points[:, [2, 1, 0]], triangles[:, ::-1]).at(path.end[row])
     body = tool_body(run.tables.tools.get(int(path.tool[row]), Tool()), size_of(path))
     lies = run.history.value("tool axis", int(path.step[row])) or "Z"
-    return Body(np.roll(body.points, "XYZ".index(lies) - 2, axis=1), body.triangles).at(path.end[row])
+    body = Body(np.roll(body.points, "XYZ".index(lies) - 2, axis=1), body.triangles)
+    return body.turned(turn_of(path, row)).at(path.end[row])
+
+
+def holder_of(run: Any, row: int = -1) -> Body | None:
+    """What holds the tool where a row of a machine with rotary axes ends, up to the spindle; None where no tool says."""
+    path = run.toolpath
+    tool = run.tables.tools.get(int(path.tool[row]), Tool())
+    if path.kinematics is None or not tool.holder:
+        return None
+    radii, heights = np.array(tool.holder, dtype=np.float64).T
+    tops = np.append(heights[1:], max(tool.effective_length, heights[-1] + radii[-1]))
+    outline = np.column_stack([np.repeat(radii, 2), np.column_stack([heights, tops]).ravel()])
+    return revolved(outline).turned(turn_of(path, row)).at(path.end[row])
+
+
+def turn_of(path: Toolpath, row: int) -> NDArray[np.float64]:
+    """How the tool is turned on the part at the end of a row (3, 3)."""
+    return np.eye(3) if path.kinematics is None else path.kinematics.orientation(path.rotary[row])

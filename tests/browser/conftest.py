@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -11,6 +12,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from tools.pages import BEGUN
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FLAGS = "--no-sandbox --disable-gpu --no-first-run --disable-background-networking --disable-sync".split()
@@ -97,6 +99,29 @@ def browser():
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         yield browser
         browser.close()
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """opened(run) opens its saved page, which has no network; a word of its console fails the test."""
+    faults, contexts = [], []
+
+    def open_page(run):
+        context = browser.new_context(viewport={"width": 1366, "height": 768})
+        contexts.append(context)
+        context.set_offline(True)
+        context.route(re.compile("^(?!file:)"), lambda route: faults.append(route.request.url) or route.abort())
+        page = context.new_page()
+        page.on("console", lambda message: "ReadPixels" in message.text or faults.append(message.text))
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(run.save(tmp_path / "player.html").as_uri())
+        page.evaluate(BEGUN)
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert faults == []
 
 
 @pytest.fixture

@@ -286,6 +286,7 @@ def measure(
                 np.minimum(corner, w, out=corner, where=w > 0)
         _bend_joints(path, rows, limits, slack)
     _stops(path, rows)
+    _swing_evenly(path, rows)
     return rows
 
 
@@ -294,6 +295,20 @@ def _slowest(size: list[Array], limits: Array) -> Array:
     most = size[0] * (1 / limits[0])
     np.maximum(most, size[1] * (1 / limits[1]), out=most)
     return np.maximum(most, size[2] * (1 / limits[2]), out=most)
+
+
+def swings(path: Toolpath) -> Mask:
+    """The rows (n,) in which rotary axes turn that swing the tip."""
+    if path.kinematics is None:
+        return np.zeros(len(path), bool)
+    return np.asarray((np.diff(path.rotary, axis=0, prepend=path.rotary[:1]) != 0).any(axis=1))
+
+
+def _swing_evenly(path: Toolpath, rows: Rows) -> None:
+    """No corners within a block that swings the tip: its rows are chords, while all axes run evenly."""
+    some = swings(path)
+    within = some[1:] & some[:-1] & (path.step[1:] == path.step[:-1])
+    rows.corner[1:-1][within] = np.minimum(rows.cap[1:], rows.cap[:-1])[within]
 
 
 def _stops(path: Toolpath, rows: Rows) -> None:

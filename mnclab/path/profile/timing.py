@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.path.limits import Limits
 from mnclab.path.places import divided
 from mnclab.path.profile.lookahead import FEWEST, PART, Turns, reachable
-from mnclab.path.profile.motions import PIECE, Rows, in_sight, measure
+from mnclab.path.profile.motions import PIECE, Rows, in_sight, measure, swings
 from mnclab.path.profile.ramps import Rapids
 from mnclab.path.profile.smooth import Groups, smooth, staged
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
@@ -86,7 +86,7 @@ def plan(
             path, rows = found.path, found.rows
     _events(found, limits, waits)
     motion = limits.rapid_motion or rapid_motion
-    if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0))).size:
+    if motion != "line" and (rapid := np.flatnonzero((path.kind == Kind.RAPID) & (rows.length > 0) & ~swings(path))).size:
         found.rapids = Rapids(path, rapid, limits, motion)
         found.seconds[rapid], rows.a[rapid] = found.rapids.seconds, found.rapids.most
     return found

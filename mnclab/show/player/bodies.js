@@ -93,10 +93,11 @@ class Beside {
   }
   // Where the tool and the path are others than before.
   changed(patch) {
-    const {run: {path}, picture: {strokes, extent, shown: {at: {row, tip, tool, along}, rowsDone}}, before} = this, until = strokes.after[rowsDone];
-    const moves = row >= 0 && path.isMotion(row) ? [strokes.after[row], strokes.after[row + 1]] : null, outline = tool ? parts(tool, extent).flatMap(([rings]) => rings) : [];
+    const {run: {path}, picture: {strokes, extent, turning, shown: {at: {row, tip, tool, along}, rowsDone}}, before} = this, until = strokes.after[rowsDone];
+    const moves = row >= 0 && path.isMotion(row) ? [strokes.after[row], strokes.after[row + 1]] : null, outline = tool ? parts(tool, extent, Boolean(turning)).flatMap(([rings]) => rings) : [];
     const wide = outline.reduce((most, [radius]) => Math.max(most, radius), 0), high = outline.reduce((most, [, height]) => Math.max(most, height), 0);
-    const body = [-1, 1].map(sense => tip.map((v, axis) => v + sense * (axis !== along ? wide : sense > 0 ? high : 0)));
+    const far = axis => turning ? wide + high : axis !== along ? wide : null;  // one that tilts may lie anywhere
+    const body = [-1, 1].map(sense => tip.map((v, axis) => v + sense * (far(axis) ?? (sense > 0 ? high : 0))));
     this.before = {until, moves, body};
     if (!before || ["until", "moves", "body"].every(name => String(before[name]) === String(this.before[name]))) return;
     patch.addLines(strokes, before.until, until);
@@ -104,7 +105,7 @@ class Beside {
     for (const each of [before.body, body]) patch.addBox(...each);
   }
   draw(patch = null) {
-    const {space, run, picture, path} = this, {strokes, contour, colours, shades, shown: {at: {row, tip, tool, along, at}, rowsDone}} = picture;
+    const {space, run, picture, path} = this, {strokes, contour, colours, shades, shown: {at: {row, tip, tool, along, at, angles}, rowsDone}} = picture;
     if (this.shaded !== (shades && shades.of)) space.paint(path, this.told = this.kinds());
     const some = (lines, kinds, from, to, width) => patch && lines.sx ? patch.lines(lines, kinds, from, to, !width) : null;
     const until = strokes.after[rowsDone], hair = picture.long, wide = width => hair ? 0 : width;
@@ -120,7 +121,7 @@ class Beside {
       space.stroke(path, strokes.after[row], strokes.after[row + 1], now, 2.6);
     }
     if (run.lathe) this.insert(run.inserts.tools, run.inserts.which.value(row < 0 ? at : row) || 0, tip);
-    else if (tool && (tool.number || tool.radius)) this.mill(tool, tip, along);
+    else if (tool && (tool.number || tool.radius)) this.mill(tool, tip, along, run.chain ? run.chain.tool(angles).flat() : undefined);
   }
   held([low, high, at, bore]) {  // a box of two corners; or a profile [radius, height], its axis, where that stands, a bore
     if (!at) return boxed(low, high);
@@ -128,11 +129,11 @@ class Beside {
     const outline = bore > 0 ? [...rising, [bore, rising[rising.length - 1][1]], [bore, rising[0][1]], rising[0]] : rising;
     return revolved(bore > 0 ? outline.slice(1).map(([r, h], k) => [...outline[k], r, h]) : sidesOf(outline), along, 0, 2 * Math.PI, at);
   }
-  mill(tool, tip, along) {
+  mill(tool, tip, along, turn) {
     const {space, picture: {extent, colours}} = this, key = JSON.stringify([tool, along]);
-    for (const [k, [outline, colour]] of parts(tool, extent).entries()) {
+    for (const [k, [outline, colour]] of parts(tool, extent, Boolean(turn)).entries()) {
       const body = space.body(`tool ${k}`, () => revolved(sidesOf(outline), along), key);
-      space.fill(body, rgb(colours[colour === "cutter" ? "metal" : "chuck"]), {at: tip, alpha: 0.8, solid: true});
+      space.fill(body, rgb(colours[colour === "cutter" ? "metal" : "chuck"]), {at: tip, turn, alpha: 0.8, solid: true});
     }
   }
   insert(tools, which, tip) {

@@ -10,6 +10,7 @@ class Camera {
     this.target = [0, 0, 0];
     this.zoom = 1;
     this.size = [1, 1];
+    this.turned = way => way;  // with a part that it goes with
     this.turnTo(lathe ? "front" : "isometric");
   }
   turnTo(name) {
@@ -25,10 +26,10 @@ class Camera {
   }
   update() {
     const y = this.yaw * Math.PI / 180, p = this.pitch * Math.PI / 180;
-    const turned = ([a, b, c]) => this.lathe ? [c, -b, a] : [a, b, c];  // screen-up is Z, on a lathe X
-    this.right = turned([Math.cos(y), Math.sin(y), 0]);
-    this.up = turned([-Math.sin(y) * Math.sin(p), Math.cos(y) * Math.sin(p), Math.cos(p)]);
-    this.near = turned([Math.sin(y) * Math.cos(p), -Math.cos(y) * Math.cos(p), Math.sin(p)]);
+    const lies = ([a, b, c]) => this.turned(this.lathe ? [c, -b, a] : [a, b, c]);  // screen-up is Z, on a lathe X
+    this.right = lies([Math.cos(y), Math.sin(y), 0]);
+    this.up = lies([-Math.sin(y) * Math.sin(p), Math.cos(y) * Math.sin(p), Math.cos(p)]);
+    this.near = lies([Math.sin(y) * Math.cos(p), -Math.cos(y) * Math.cos(p), Math.sin(p)]);
   }
   project(point) {
     const x = point[0] - this.target[0], y = point[1] - this.target[1], z = point[2] - this.target[2];

@@ -14,6 +14,7 @@ class Carving {
     this.grid = new Grid(part, floor);
     this.cutters = part.cutters;
     [this.which, this.does, this.lift] = ["which", "does", "lift"].map(name => new Log(columns, part[name]));
+    this.along = part.along && new Log(columns, part.along);  // of tools that do not stand along Z
     const blank = Heights.of(this.grid, columns[part.top].map(v => v / part.parts));
     if (part.walls !== undefined) blank.stand(columns[part.walls], columns[part.shares]);
     if (part.round) {  // the walls of a standing cylinder
@@ -107,7 +108,7 @@ class Carving {
     const {rows: row, map} = state, {path} = this.run, does = this.does.value(row);
     if (does !== NO_CUT && (does === CUT || share === 1)) {
       const cutter = this.cutters[this.which.value(row)], rapid = path.kind[row] === RAPID;
-      if (state === this.scout && does === CUT && !rapid) this.engaged[row] = this.engagement(cutter, row, map);
+      if (state === this.scout && does === CUT && !rapid && !(this.along && this.along.value(row))) this.engaged[row] = this.engagement(cutter, row, map);
       const thin = [Math.max(cutter[0] - THIN, 0), Math.min(cutter[1], Math.max(cutter[0] - THIN, 0)), cutter[2], cutter[3]];
       for (const make of this.pieces(row, does === ARRIVAL ? 1 : state.share, share))
         state.spent += map.take(make(cutter), row, rapid ? make(thin) : null, state.begin || map);
@@ -137,21 +138,21 @@ class Carving {
   // What a row is between two shares of it: functions that make a piece for a cutter. Arcs about Z at one height stay arcs.
   pieces(row, from, to) {
     const {path} = this.run, lift = this.lift.value(row), k = path.arc[row];
-    const point = share => path.point(row, share).map((value, axis) => axis === 2 ? value + lift : value);
+    const point = share => path.point(row, share).map((value, axis) => axis === 2 ? value + lift : value), up = this.along && this.along.value(row);
+    const straight = up ? (a, b) => cutter => leaningPiece(cutter, a, b, up, this.depths[1]) : (a, b) => cutter => straightPiece(cutter, a, b);
     if (k < 0 || from === to) {
-      const [a, b] = [point(from), point(to)];
-      return [cutter => straightPiece(cutter, a, b)];
+      return [straight(point(from), point(to))];
     }
     const a = path.vertex(row), b = path.vertex(row + 1), c = path.centre.map(column => column[k]), upright = path.axis.value(k)[2];
     const [one, other] = [a, b].map(end => Math.hypot(end[0] - c[0], end[1] - c[1]));
-    if (Math.abs(upright) > 1 - 1e-9 && a[2] === b[2] && Math.abs(one - other) < this.grid.step / 50) {
+    if (!up && Math.abs(upright) > 1 - 1e-9 && a[2] === b[2] && Math.abs(one - other) < this.grid.step / 50) {
       const turn = path.sweep[k] * Math.sign(upright), first = Math.atan2(a[1] - c[1], a[0] - c[0]) + from * turn;
       return [cutter => arcPiece(cutter, c, one, first, (to - from) * turn, a[2] + lift)];
     }
     const radius = path.radius(row), bend = 2 * Math.acos(Math.max(0, 1 - CHORD / Math.max(radius, CHORD)));
     const count = Math.max(1, Math.ceil(Math.abs(path.sweep[k]) * (to - from) / bend)), places = [];
     for (let i = 0; i <= count; i++) places.push(point(from + (to - from) * i / count));
-    return places.slice(1).map((end, i) => cutter => straightPiece(cutter, places[i], end));
+    return places.slice(1).map((end, i) => straight(places[i], end));
   }
 }
 

@@ -196,6 +196,7 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
     this.scale = scale;
     this.rotary = header.rotary && header.rotary.map(k => columns[k].map(v => v / header.degrees));
     this.turned = this.rotary ? this.rotary.map(column => column.some(angle => angle !== 0)) : [];
+    this.chain = header.machine && new Chain(columns, header.machine);
     this.stock = header.stock;
     this.inserts = header.inserts && {which: new Log(columns, header.inserts.which), tools: header.inserts.tools};
     this.loose = new Set([...this.course.loose.keys()].map(piece => this.course.row[piece]));  // rapids that leave their straight line
@@ -292,10 +293,16 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
   }
   // Rotary axes A, B and C at a share of a row, degrees; null in a run that turns none.
   angles(row, share) {
-    return this.rotary && this.rotary.map(angle => {
-      const before = row > 0 ? angle[row - 1] : 0;
-      return row < 0 ? 0 : before + share * (angle[row] - before);
+    const first = k => this.chain ? this.chain.home[k] : 0;
+    return this.rotary && this.rotary.map((angle, k) => {
+      const before = row > 0 ? angle[row - 1] : first(k);
+      return row < 0 ? first(k) : before + share * (angle[row] - before);
     });
+  }
+  // A tip in machine coordinates, or where rotary axes swing it the spindle reference, at angles of these in a row.
+  reference(tip, angles, row) {
+    const at = this.chain ? this.chain.reference(tip, angles, this.chain.length.value(row) || 0) : tip;
+    return at.map((value, k) => value + this.origin[k]);
   }
   // The spindle speed; at constant cutting speed it follows X, but not beyond its limit.
   turning(row, point) {

@@ -131,7 +131,7 @@ class Heights {
         for (; i <= end; i++) {
           const at = j % TILE * TILE + i % TILE, now = tile.h[at], floor = grid.floor[j * nx + i];
           if (now <= floor || now <= piece.low) continue;
-          const x = grid.x(i), height = Math.max(left(x, y), floor);
+          const x = grid.x(i), height = Math.max(left(x, y, now), floor);
           if (!(height < now - SAME)) continue;
           const red = rapid && rapid.left(x, y) < before.tiles[k].h[at] - THIN;
           if (!open) [tile, open] = [this.writable(k), true];

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from mnclab.path.profile import Profile
 from mnclab.show.looks import player_css
+from mnclab.show.player.machine import turns
 from mnclab.show.player.payload import payload
 from mnclab.show.probed import felt
 from mnclab.text.alarm import Alarm, several
@@ -33,9 +34,14 @@ SCRIPTS = (
 )  # fmt: skip
 #: What is only in the pages that cut, by whether the machine is a lathe.
 CUTTING = {
-    False: ("swept", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface", "shown_part"),
+    False: (
+        "swept", "leaning", "heights", "walls", "carving", "space", "bodies", "patch", "relief", "shaded", "surface",
+        "shown_part",
+    ),
     True: ("space", "bodies", "columns", "turned", "section", "rims"),
-}
+}  # fmt: skip
+#: What is only in the pages of machines whose rotary axes swing the tip.
+TURNING = ("chain",)
 ROOM = "max(480px, 100vh - 210px)"  # below a cell of three lines in JupyterLab, down to its buttons
 THEMES = ("auto", "light", "dark")
 HIDE = 'document.querySelectorAll(".mnclab-player-still").forEach(each => { each.hidden = true; });'
@@ -90,7 +96,7 @@ class Player:
         """The page: markup, style, data and scripts in one text."""
         probed = felt(self.run)
         shown = self.cutting or (probed is not None and probed.part is not None and not self.run.toolpath.lathe)
-        names = [*(CUTTING[self.run.toolpath.lathe] if shown else ()), *SCRIPTS]
+        names = [*(CUTTING[self.run.toolpath.lathe] if shown else ()), *(TURNING if turns(self.run.toolpath) else ()), *SCRIPTS]
         scripts = "\n".join(map(_short, (_colours(), *(_read(f"{name}.js") for name in names))))
         script, begin = f'"use strict";\n{scripts}\n', f"\n{_short(_read('begin.js'))}\n"
         style = f"\n{player_css()}\n{_read('page.css')}\n"

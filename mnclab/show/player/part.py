@@ -23,7 +23,7 @@ from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour, steps_within
 from mnclab.path.inserts import as_drawn, cutting_part, holder, insert, lead_of
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.path.toolpath import Mask, Toolpath
 from mnclab.show.probed import Felt
 from mnclab.text.alarm import several
 from mnclab.text.file import printable
@@ -31,6 +31,7 @@ from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting, tool_exists
 from mnclab.workpiece.milling.moves import cutter_of
 from mnclab.workpiece.milling.raster import Raster
+from mnclab.workpiece.milling.tilted import left_out
 from mnclab.workpiece.turning.section import SectionDrawing, cuts, held, left_of
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.turned import half_section, room_of
@@ -170,8 +171,8 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     floor, top = (np.nan_to_num(side, nan=float(bounds[0, 2])) for side in stock.faces(x, y))  # beside the blank nothing is left
     tilted = np.zeros(len(path), dtype=bool) if cutting.tilted is None else cutting.tilted
-    count = int((tilted & np.isin(path.kind, (Kind.LINE, Kind.ARC))).sum())
-    does = np.where(cutting.cuts & ~tilted, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
+    count = sum(int(rows.sum()) for rows, _ in left_out(cutting))
+    does = np.where(cutting.cuts & ~cutting.turning, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
     return {
         "low": list(raster.low),
         "high": bounds[1, :2].tolist(),
@@ -185,8 +186,17 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
         "which": log(pack, cutting.which),
         "does": log(pack, does),
         "lift": log(pack, cutting.path.start[:, 2] - path.start[:, 2]),
-        "note": f"{several(count, 'move')} of a tool not along Z: not cut here" if count else "",
+        "along": _leaning(pack, cutting, tilted & ~cutting.turning),
+        "note": f"{several(count, 'move')} on which the tool turns: not cut here" if count else "",
     }
+
+
+def _leaning(pack: Packer, cutting: Cutting, rows: Mask) -> dict[str, Any] | None:
+    """The direction of the tool on the rows (n,) on which it stands tilted, None on others; None where it never does."""
+    if cutting.directions is None or not rows.any():
+        return None
+    at = np.flatnonzero(np.append(True, (np.diff(cutting.directions[:, -1], axis=0) != 0).any(axis=1) | (np.diff(rows) != 0)))
+    return changes(pack, at, [cutting.directions[row, -1].tolist() if rows[row] else None for row in at.tolist()])
 
 
 # To turn it: the bar, what each row takes away in the plane of z and r, the inserts. The areas are those of the kernel, as

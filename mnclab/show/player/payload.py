@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from mnclab.path.cylinder import parted_rapids
 from mnclab.path.profile import Profile
 from mnclab.path.toolpath import Kind, Toolpath
+from mnclab.show.player.machine import machine
 from mnclab.show.player.part import (
     ROOM,
     Packer,
@@ -108,6 +109,7 @@ def payload(
         "degrees": degrees,
         "stock": _edges([run.stock] if run.stock else []) + _cylinders(run.toolpath),
         "turning": sorted({(*one.direction, one.rotary) for one in run.toolpath.cylinders}) or None,  # the axes of drums
+        "machine": machine(pack, run),
         "home": run.rows_from_home if run.toolpath.cylinders else 0,  # rows that nobody has said the beginning of
         "bent": _bent(pack, run.toolpath, scale) if run.toolpath.cylinders else None,
         "fixtures": _edges(cutting.fixtures) if cutting and not path.lathe else [],

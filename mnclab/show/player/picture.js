@@ -36,6 +36,7 @@ class Picture {
     this.fewRapids = this.strokes.kind.reduce((n, kind) => n + (kind === RAPIDS), 0) < 3000;
     this.touches = new Touches(run);
     this.camera = new Camera(run.lathe);
+    this.turning = run.chain && new Turning(this, run.chain);
     this.ahead = document.createElement("canvas");
     this.done = document.createElement("canvas");
     this.drawn = -1;  // the last point of the strokes in the layer of what is done
@@ -45,18 +46,20 @@ class Picture {
   }
   // From where to where what fills the picture lies along a direction.
   reach(d) {
+    const [least, most] = this.turning ? this.turning.reach(d) : [Infinity, -Infinity];
+    if (this.turning && this.turning.moves) return [least, most];
     const {strokes} = this, along = ([x, y, z]) => x * d[0] + y * d[1] + z * d[2], solid = this.solid.map(along);
     const [low, high] = strokes.reach(d, this.fills);
     if (this.run.lathe || low > high) {  // the chuck, and what is turned, lie on both sides of the axis
       const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => along(this.box[k & 1].map((_, axis) => this.box[k >> axis & 1][axis])));
       return [Math.min(...corners), Math.max(...corners)];
     }
-    return [solid.reduce((a, b) => Math.min(a, b), low), solid.reduce((a, b) => Math.max(a, b), high)];
+    return [solid.reduce((a, b) => Math.min(a, b), Math.min(low, least)), solid.reduce((a, b) => Math.max(a, b), Math.max(high, most))];
   }
   recolour() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(["paper", "ink", "faint", "rapid", "cut", "probing", "contour", "blank", "now", "cutter", "shank",
-      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck", "insert", "holder", "beam",
+      "edge", "quiet", "raw", "metal", "deep", "crash", "alarm", "chuck", "insert", "holder", "beam", "turning", "plane",
       "c0", "c1", "c2", "c3", "c4", "c5"].map(name => [name, style.getPropertyValue("--" + name).trim()]));
     this.stale = true;
   }
@@ -71,7 +74,8 @@ class Picture {
     if (this.fitted) this.camera.fit(d => this.reach(d)); else this.camera.zoom *= scale;
     this.stale = true;
   }
-  fit() {
+  fit(whole = false) {  // of a machine with a head, as far as its axes
+    if (this.turning) this.turning.whole = whole;
     this.camera.fit(d => this.reach(d));
     this.fitted = true;  // until a person zooms or shifts: a frame may get its size late
     this.stale = true;
@@ -111,6 +115,7 @@ class Picture {
   draw(at, rowsDone) {
     const {camera, strokes} = this, [w, h] = camera.size, inSpace = this.part && this.part.inSpace;
     this.shown = {at, rowsDone};
+    if (this.turning && this.turning.carry(at.angles)) this.stale = true;
     if (this.stale) {
       strokes.project(camera);
       if (this.contour) this.contour.project(camera);
@@ -172,14 +177,18 @@ class Picture {
     pen.globalAlpha = 1;
   }
 
-  // How places about the tip are projected: those of a tool, round which a drum has turned.
+  // How places about the tip are projected: those of a tool that stands tilted, or round which a drum has turned.
   beside(tip, angles) {
+    if (this.turning) {
+      const ways = this.run.chain.tool(angles);
+      return point => this.camera.project(tip.map((v, k) => v + ways.reduce((sum, way, n) => sum + way[k] * (point[n] - tip[n]), 0)));
+    }
     const [[...drum]] = this.run.header.turning || [[]], angle = (angles || [])[drum.pop()] * Math.PI / 180;
     if (!angle) return point => this.camera.project(point);
     return point => this.camera.project(turned(point.map((v, k) => v - tip[k]), drum, angle).map((v, k) => v + tip[k]));
   }
   // Returns the boxes of what is written.
-  moment(pen, {row, tip, tool, along, at, angles}) {
+  moment(pen, {row, tip, tool, along, at, angles, step}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     const inSpace = this.part && this.part.inSpace;
     if (row >= 0 && run.path.isMotion(row) && !inSpace) {
@@ -187,9 +196,10 @@ class Picture {
       pen.lineWidth = 2.6;
       for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
     }
+    if (this.turning) this.turning.draw(pen, {row, tip, at, angles, step});
     const held = run.lathe && run.inserts.tools[run.inserts.which.value(row < 0 ? at : row) || 0];
     if (held && !inSpace) drawInsert(pen, held, tip, project, colours);
-    else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, this.beside(tip, angles), colours, this.extent);
+    else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, this.beside(tip, angles), colours, this.extent, Boolean(this.turning));
     const [x, y] = project(tip);
     pen.beginPath();
     pen.arc(x, y, 3.2, 0, 7);

@@ -9,6 +9,7 @@ const KEYS = [
   ["B  N", "a stop at this block; to the next stop, with shift to the one before"], ["wheel", "zooms, once the picture has been clicked"],
   ["R", "rapids, shown or not"], ["C", "what the colour of the cuts says"], ["M", "measures between two clicks (or arrows and enter); Esc clears"],
 ];
+const MACHINE_KEYS = [["T", "the table turns, or the part stands still and the tool goes about it"], ["H", "fit as far as the axes of the head"]];
 const PART_KEYS = [["P", "the part, shown or not"]];
 const LATE = 40;  // ms from frame to frame, beyond which playing makes do with a coarser picture
 const STANDS = 150;  // ms after which a picture that was turned is drawn sharp
@@ -42,6 +43,7 @@ class PlayerPage {
     this.legend();
     this.alarms();
     this.showPart(true);
+    this.showMachine(true);
     if (run.header.turning && !part) Object.assign(find("note"), {textContent: "the blank, not cut", hidden: false});
     this.pointers();
     document.addEventListener("keydown", event => this.key(event));
@@ -208,7 +210,7 @@ class PlayerPage {
     const tool = run.history.has("tool") && !(run.header.turning?.length > 1) ? run.history.get("tool").value(now.step) : null;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
-    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles}, now.rowsDone);
+    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles, step: now.step}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {
@@ -220,6 +222,17 @@ class PlayerPage {
     this.find("note").textContent = this.part.note;
     this.find("note").hidden = !on || !this.part.note;
     this.picture.stale = true;
+    this.show();
+  }
+  showMachine(on) {  // the part turns as on the machine, or the tool about it
+    const {picture} = this;
+    if (!picture.turning || !picture.turning.chain.table.length) return;
+    picture.turning.moves = on;
+    picture.turning.carry(this.now().angles);
+    this.find("show-machine").hidden = false;
+    this.find("show-machine").setAttribute("aria-pressed", on);
+    picture.stale = true;
+    if (picture.fitted) picture.fit();
     this.show();
   }
   showRapids(on) {
@@ -331,14 +344,17 @@ class PlayerPage {
     find("zoom-in").addEventListener("click", () => this.change(camera => camera.zoomAt(1.3)));
     find("zoom-out").addEventListener("click", () => this.change(camera => camera.zoomAt(1 / 1.3)));
     find("fit").addEventListener("click", () => this.change(() => this.picture.fit()));
+    find("fit-head").hidden = !run.chain || !run.chain.head.length;
+    find("fit-head").addEventListener("click", () => this.change(() => this.picture.fit(true)));
     find("show-part").addEventListener("click", () => this.showPart(!this.picture.part));
     for (const name of this.shades.names) find("colour").add(new Option(name));
     find("colour").addEventListener("change", event => this.colour(event.target.value));
     find("show-rapids").addEventListener("click", () => this.showRapids(!this.picture.rapids));
+    find("show-machine").addEventListener("click", () => this.showMachine(!this.picture.turning.moves));
     find("theme").addEventListener("click", () => this.theme(this.root.dataset.shown === "dark" ? "light" : "dark"));
     find("help").addEventListener("click", () => this.help());
     find("slider").addEventListener("input", event => this.jump(() => this.atTime(event.target.value * run.time)));
-    const list = made("dl", {}, ...[...KEYS, ...this.part ? PART_KEYS : []]
+    const list = made("dl", {}, ...[...KEYS, ...this.part ? PART_KEYS : [], ...run.chain ? MACHINE_KEYS.filter(([key]) => key === "T" ? run.chain.table.length : run.chain.head.length) : []]
       .flatMap(([key, what]) => [made("dt", {}, key), made("dd", {}, run.lathe && LATHE_KEYS.get(key) || what)]));
     const legend = made("p", {}, ...[["cut", "cut"], ["rapid", "rapid", "dashed"], ["probing", "probing", "dotted"], ["contour", "programmed contour"],
       ["blank", "blank"], ["now", "this move"], ...run.header.fixtures.length ? [["edge", "fixture"]] : [],
@@ -388,7 +404,8 @@ class PlayerPage {
       ",": jump(() => this.moveBack()), "Home": jump(() => this.afterItem(-1)), "End": jump(() => this.afterItem(this.run.items - 1)),
       "PageDown": jump(() => this.atTime(this.place.t + 1)), "PageUp": jump(() => this.atTime(this.place.t - 1)),
       "+": () => this.find("zoom-in").click(), "=": () => this.find("zoom-in").click(), "-": () => this.find("zoom-out").click(),
-      "f": () => this.find("fit").click(), "p": () => this.showPart(!this.picture.part),
+      "f": () => this.find("fit").click(), "h": () => this.find("fit-head").hidden || this.find("fit-head").click(), "p": () => this.showPart(!this.picture.part),
+      "t": () => this.picture.turning && this.showMachine(!this.picture.turning.moves),
       "r": () => this.showRapids(!this.picture.rapids), "a": turn(8, 0), "d": turn(-8, 0), "w": turn(0, 8), "s": turn(0, -8),
       "m": () => this.measure.turn(),
       "c": () => this.colour(this.shades.names[(this.shades.names.indexOf(this.shades.name) + 1) % this.shades.names.length]),

@@ -4,7 +4,13 @@ const FACETS = 28;
 const SHARP = Math.cos(0.6);  // of the angle at a corner, from which on it is an edge of a body
 
 // The parts of a tool from above: rings [radius, height above the tip], and which colour they have.
-function parts(tool, extent) {
+function parts(tool, extent, held = false) {
+  const found = bare(tool, extent), holder = (held && tool.holder) || [], top = (tool.length || 0) + (tool.dl || 0);
+  const rings = holder.map(([radius, from], k) => [[[radius, from], [radius, k + 1 < holder.length ? holder[k + 1][1] : Math.max(top, from + radius)]], "holder"]);
+  if (rings.length) found[0][0][found[0][0].length - 1][1] = Math.max(found[0][0][found[0][0].length - 1][1], holder[0][1]);  // up to it
+  return [...rings.reverse(), ...found];
+}
+function bare(tool, extent) {
   const radius = Math.abs((tool.radius || 0) + (tool.dr || 0)) || extent / 80;
   const cutting = tool.cutting_length || Math.max(6 * radius, extent / 12);
   const length = Math.max(Math.min(tool.length || 0, 3 * cutting), 1.7 * cutting);
@@ -70,8 +76,8 @@ function trace(pen, points) {
 }
 
 // A mill, drill or probe with its tip at a point, and its shank along X, Y or Z (0, 1, 2).
-function drawTool(pen, tool, tip, along, project, colours, extent) {
-  for (const [part, colour] of parts(tool, extent)) {
+function drawTool(pen, tool, tip, along, project, colours, extent, held) {
+  for (const [part, colour] of parts(tool, extent, held)) {
     const all = part.map(each => ring(each, tip, along, project));
     trace(pen, hull(all.flat()));
     pen.fillStyle = colours[colour];

@@ -11,11 +11,12 @@ vec3 eye(vec3 place) {
 const BODY = CAMERA + `
 in vec3 place, normal;
 uniform vec3 at;
+uniform mat3 turn;
 out vec3 out_of;
 out vec3 where;
 void main() {
-  vec3 seen = eye(place + at);
-  out_of = vec3(dot(normal, right), dot(normal, up), dot(normal, near));
+  vec3 seen = eye(turn * place + at), way = turn * normal;
+  out_of = vec3(dot(way, right), dot(way, up), dot(way, near));
   where = place;
   gl_Position = vec4(seen.xy / size.xy, -seen.z / size.z, 1.0);
 }`;
@@ -73,6 +74,7 @@ void main() {
   colour = vec4(tone.rgb, 1.0) * cover * strength;
 }`;
 const FACES = [0, 1, 2, 2, 1, 3];  // of the four corners of a line, those of its triangles
+const STRAIGHT = [1, 0, 0, 0, 1, 0, 0, 0, 1];  // a body that is not turned
 const NEARER = 2.5;  // pixels that a line is drawn nearer, so that it lies on the ground that it runs over
 
 class Space {
@@ -112,10 +114,11 @@ class Space {
     kept.set(name, {key, vertices, buffer, count: numbers.length / 6});
     return kept.get(name);
   }
-  fill({vertices, count}, tone, {at = [0, 0, 0], alpha = 1, stripe = tone, gap = 0, solid = false} = {}) {
+  fill({vertices, count}, tone, {at = [0, 0, 0], turn = STRAIGHT, alpha = 1, stripe = tone, gap = 0, solid = false} = {}) {
     const {gl, bodies: {use, place}} = this;
     use();
     gl.uniform3f(place.at, ...at);
+    gl.uniformMatrix3fv(place.turn, false, turn);
     gl.uniform4f(place.tone, ...tone, alpha);
     gl.uniform4f(place.stripe, ...stripe, 1);
     gl.uniform1f(place.gap, gap);

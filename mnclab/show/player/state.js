@@ -71,12 +71,14 @@ class Board {
     this.run = run;
     this.find = find;
     this.step = -2;
-    find("angles").hidden = !run.rotary;
+    find("angles").hidden = !run.rotary || Boolean(run.chain);
     find("position-unit").textContent = find("feed-unit").textContent = run.unit.short;
     const axes = run.lathe ? ["⌀ X", "Z"] : ["X", "Y", "Z"];
     this.axes = run.lathe ? [0, 2] : [0, 1, 2];
-    find("axes").replaceChildren(...axes.map((name, row) => made("tr", {}, made("th", {scope: "row"}, name),
-      ...["program", "tool", "machine"].map(column => made("td", {id: `${column}-${"XYZ"[this.axes[row]]}`})))));
+    this.rotary = run.chain ? run.chain.axes : [];  // stand beside X Y Z
+    find("axes").replaceChildren(...[...axes, ...this.rotary.map(({name}) => name)].map(name => made("tr", {}, made("th", {scope: "row"}, name),
+      ...["program", "tool", "machine"].map(column => made("td", {id: `${column}-${name.slice(-1)}`})))));
+    if (run.chain) Object.assign(find("machine"), {title: "the spindle reference in machine coordinates, and the rotary axes in degrees"});
   }
   // A coordinate as the operator reads it: a lathe's X is a diameter; or as the program says it, where that may be a radius.
   shown(point, axis, told = false) {
@@ -89,7 +91,8 @@ class Board {
   show({step, row, point, speed, item, angles}) {
     const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
-    this.positions("machine", run.header.turning ? null : point.map((value, k) => value + run.origin[k]));
+    this.positions("machine", run.header.turning ? null : run.reference(point, angles, at));
+    for (const {name, number: axis} of this.rotary) find(`machine-${name}`).textContent = `${number(angles[axis], 3)}°`;
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = run.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;
     const programmed = perRev ? `${lengthText(perRev, unit.length)} ${unit.short}/rev` : kind === RAPID ? "rapid" : typeof feed === "number" ? `F ${lengthText(feed, unit.length)}` : "";

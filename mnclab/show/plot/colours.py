@@ -53,6 +53,7 @@ QUARTERS = _quarters()
 GHOST = LineStyle("_before", looks.GREY, "-", 1.1, 1.9)
 GHOST_RAPID = LineStyle("_before, rapid", looks.GREY, (0, (1, 2)), 0.8, 1.9)
 BLANK_FACE = "#f6f3ea"  # behind everything
+TILTED = LineStyle("tool, tilted", looks.GREEN, "-", 1.1, 2.4)
 LEADER = LineStyle("_leader", INK, "-", 1.0, 3.9)  # from a symbol to its place
 CENTRE_LINE = LineStyle("", "#6b6b6b", (0, (10, 3, 1.5, 3)), 0.8, 1.5)
 

@@ -5,9 +5,8 @@ The places come out of the history of a run: its frames are put together again s
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from collections.abc import Iterator, Sequence
-from itertools import groupby, product
+from collections.abc import Sequence
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +15,8 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Annotation, Text
 
 from mnclab.geometry import frames
-from mnclab.geometry.frames import FrameChain, Matrix
+from mnclab.geometry.frames import FrameChain
+from mnclab.show.chains import ORIGINS, replayed
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import Mark
 from mnclab.show.plot.picture import SMALL, View, figure_of
@@ -198,59 +198,3 @@ def crossing(box: Array, begin: Array, end: Array) -> int:
     enter = np.fmax.reduce(np.where(way == 0, 0.0, np.fmin(one, other)), axis=1)
     leave = np.fmin.reduce(np.where(way == 0, 1.0, np.fmax(one, other)), axis=1)
     return int(((np.fmax(enter, 0) <= np.fmin(leave, 1)) & ~outside).sum())
-
-
-# The frames of a run, put together again out of its history: which chain was in force after each step.
-# Frames of the tool's length are left out: they move the tip, not the coordinates that a program counts in.
-
-#: Frames that set a zero point; a control that keeps the shifts of G52 and G92 apart has `local` and `set`.
-ORIGINS = {"datum": "", "preset": "preset", "local": "G92", "set": "G92", "shift": "datum shift"}
-LENGTH = "length"
-PREFIX = "frame "
-
-
-def replayed(run: Any, *more: str) -> Iterator[tuple[int, list[str], list[tuple[str, Any]], FrameChain]]:
-    """Each step that changes frames or one of the names `more`: the step, the frames that it sets, the other changes, and the
-    chain after it, which is one object that goes on changing."""
-    history, chain = run.history, FrameChain(run.frames.slots)
-    names = [name for name in history if name.startswith(PREFIX) and name != PREFIX + LENGTH]
-    log = [(step, name not in names, name, value) for name in (*names, *more) for step, value in history.changed(name)]
-    nested = run.settings.get("transformation_order") == "nested"
-    for step, changes in groupby(sorted(log, key=lambda each: each[:2]), key=lambda each: each[0]):
-        set_here: list[str] = []
-        others: list[tuple[str, Any]] = []
-        for _, other, name, value in changes:
-            if other:
-                others.append((name, value))
-                continue
-            frame, matrix = name.removeprefix(PREFIX), np.array(value)
-            if nested and frame not in ORIGINS and not np.array_equal(matrix, chain[frame]):
-                chain.innermost(frame)
-            chain.set(frame, None if np.array_equal(matrix, frames.IDENTITY) else matrix)
-            set_here.append(frame)
-        yield step, set_here, others, chain
-
-
-class Chains:
-    """The chains of a run by step."""
-
-    def __init__(self, run: Any) -> None:
-        self.steps, self.chains = [-1], [FrameChain(run.frames.slots)]
-        for step, _, _, chain in replayed(run):
-            self.steps.append(step)
-            self.chains.append(chain.copy())
-
-    def __len__(self) -> int:
-        return len(self.chains)
-
-    def at(self, step: int) -> FrameChain:
-        """The chain after a step."""
-        return self.chains[bisect_right(self.steps, step) - 1]
-
-
-def without(chain: FrameChain, names: tuple[str, ...]) -> Matrix:
-    """The product of a chain as if some of its frames were neutral."""
-    found = chain.copy()
-    for name in names:
-        found.set(name, None)
-    return found.matrix

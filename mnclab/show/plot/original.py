@@ -13,8 +13,8 @@ from mnclab.geometry import frames
 from mnclab.geometry.frames import FrameChain
 from mnclab.path.listing import Unit, figure
 from mnclab.path.toolpath import Array, Kind
+from mnclab.show.chains import Chains, without
 from mnclab.show.plot import colours
-from mnclab.show.plot.datums import Chains, without
 from mnclab.show.plot.overlay import across, fits, grown, line, texts
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.strokes import parted, strokes

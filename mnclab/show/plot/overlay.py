@@ -17,9 +17,9 @@ from matplotlib.patches import FancyArrowPatch
 from mnclab.geometry import frames
 from mnclab.path.listing import Unit, figure
 from mnclab.path.toolpath import Array, Kind
+from mnclab.show.chains import Chains
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import LineStyle, Mark
-from mnclab.show.plot.datums import Chains
 from mnclab.show.plot.picture import View
 from mnclab.show.plot.placing import write_beside
 

@@ -69,6 +69,7 @@ from mnclab.show.plot.probed import names_of
 from mnclab.show.plot.sections import fixtures_of
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import Array, Strokes, corners, line_of, strokes
+from mnclab.show.plot.tilted import tilted_tool_of, tilts
 from mnclab.show.probed import Felt
 from mnclab.show.probed import felt as felt_of
 from mnclab.text.alarm import ALARM, Alarm, several
@@ -187,7 +188,7 @@ def plot_path(
         low, high = np.fmin(low, blank[0]), np.fmax(high, blank[1])
     unseen = cut_off and goes_out(path, low, high, views)
     above = next((each for each in views if not path.lathe and (each.right, each.up) == (0, 1)), None)
-    crowded = above is not None and band is not False and (band or _crowded(drawn, found, high - low, size))
+    crowded = above is not None and band is not False and not tilts(path) and (band or _crowded(drawn, found, high - low, size))
     banded = above if crowded and (band or len(drawn.row) <= MOST_STROKES) else None
     if banded is not None and not cut_off:
         low, high = around_bands(low, high, path, drawn, found.group >= CUTS)
@@ -417,7 +418,7 @@ def _telling(run: Any, figure: Figure) -> Figure:
 
 
 def overlays_of(run: Any, centres: bool | None, original: bool, holes: bool, fixtures: bool) -> list[Overlay]:
-    """Centres of arcs, the contour as written, holes and fixtures of a run."""
+    """Centres of arcs, the contour as written, holes, fixtures and the tilted tool of a run."""
     found: list[Overlay | None] = [fixtures_of(run) if fixtures else None, original_of(run) if original else None]
-    found += [holes_of(run) if holes else None, polar_of(run), centres_of(run, centres)]
+    found += [holes_of(run) if holes else None, polar_of(run), centres_of(run, centres), tilted_tool_of(run.toolpath)]
     return [each for each in found if each is not None]

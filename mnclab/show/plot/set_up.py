@@ -15,8 +15,9 @@ from mnclab.geometry.frames import shift
 from mnclab.path.listing import Unit
 from mnclab.path.toolpath import Array
 from mnclab.show import looks
+from mnclab.show.chains import LENGTH, ORIGINS, Chains
 from mnclab.show.plot import colours
-from mnclab.show.plot.datums import LENGTH, ORIGINS, Chains, DatumCross, places_of
+from mnclab.show.plot.datums import DatumCross, places_of
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, View, arrange, dress, figure_of, roomy, write_legend
 from mnclab.show.plot.probed import draw_material

@@ -1,0 +1,50 @@
+"""Where the axes of a machine stand, over the rows of a path or over time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mnclab.path.profile import Profile
+from mnclab.show.plot import colours
+from mnclab.show.plot.picture import SMALL, Picture, stacked
+from mnclab.show.plot.sizes import sized
+
+UNITS = {"X": "mm", "Y": "mm", "Z": "mm", "A": "°", "B": "°", "C": "°"}
+DECIMALS = 6  # what is below is noise of numbers
+WIDTH, HIGH = 7.0, 0.85  # inches: of the figure, and of one axis
+
+
+@sized()
+def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
+    """A curve for each axis that moves: X Y Z of the spindle reference, mm, and A B C, degrees, in machine coordinates.
+
+    Over the rows of the path, or over the time of a `profile` of it, s, within a row evenly.
+    """
+    course, at = axes.course()
+    course = course.round(DECIMALS)
+    over = "row of the path"
+    if profile is not None:
+        at, over = np.interp(at, np.arange(len(profile.starts)), profile.starts), "time, s"
+    moving = [k for k in range(6) if len(course) and np.ptp(course[:, k]) > 0]
+    ends = ", ".join(f"{name} from {low:g} to {high:g}" for name, low, high in _spans(course, moving))
+    picture = Picture((WIDTH, HIGH * max(len(moving), 1) + 0.6), f"axes over {over}: {ends or 'none moves'}")
+    for row, k in zip(stacked(picture, [1.0] * max(len(moving), 1), 0.1, left=0.8, ticks=3), moving):
+        name = "XYZABC"[k]
+        look = colours.AXES[k % 3]
+        row.plot(at, course[:, k], color=look.colour, linewidth=look.width)
+        row.set_ylabel(f"{name}, {UNITS[name]}", fontsize=SMALL + 1)
+        low, high = course[:, k].min(), course[:, k].max()
+        row.set_ylim(low - 0.08 * (high - low), high + 0.08 * (high - low))
+        row.margins(x=0)
+    last = picture.axes[-1]
+    last.set_xlabel(over, fontsize=SMALL + 1)
+    if not moving:
+        last.text(0.5, 0.5, "no axis moves", transform=last.transAxes, ha="center", va="center", fontsize=SMALL + 1)
+    picture.align_ylabels(picture.axes)
+    return picture
+
+
+def _spans(course: Any, moving: list[int]) -> list[tuple[str, float, float]]:
+    return [("XYZABC"[k], round(course[:, k].min(), 3), round(course[:, k].max(), 3)) for k in moving]

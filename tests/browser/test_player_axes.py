@@ -1,0 +1,128 @@
+"""The player of machines whose rotary axes turn: where it shows axes, tool and part, against the chain in Python and by hand."""
+
+import numpy as np
+import pytest
+
+import mnclab as mnc
+
+TOOL = mnc.Tool(radius=4, length=90, cutting_length=25, holder=((10, 35), (20, 50)))
+BLOCK = ((70, -80, -220), (130, -20, -200))
+#: The values of the machine after a row, read off the board.
+READ = """row => {
+    const {player} = window, {run} = player;
+    player.go(player.afterItem(run.itemOfRow[row]));
+    return [...document.querySelectorAll("[id^=machine-]")].map(cell => [cell.id.slice(-1), cell.textContent.replace("−", "-")]);
+}"""
+#: The directions of the tool on the part after a row, and where a place of the part is seen, with the part turning and still.
+SEEN = """([row, place]) => {
+    const {player} = window, {run, picture} = player, found = {};
+    player.go(player.afterItem(run.itemOfRow[row]));
+    for (const turns of [true, false]) {
+        picture.turning.moves = turns && run.chain.table.length > 0;
+        player.draw();
+        found[turns] = picture.camera.project(place);
+        found["target" + turns] = picture.camera.target;
+        found.zoom = picture.camera.zoom;
+        found.size = picture.camera.size;
+        found["ways" + turns] = [picture.camera.right, picture.camera.up];
+    }
+    return {...found, tool: run.chain.tool(player.now().angles)};
+}"""
+
+
+def made(machine, text=None):
+    tilt = "A" if machine == "table-ac" else "B"
+    blocks = text or f"L {tilt}+25 C+40 FMAX\nL X-5 Z+12 F300\nL Y+15 {tilt}+10 F800\nTOOL CALL 3 Z S900\nL X+0 C-70 F900"
+    tools = {2: TOOL, 3: mnc.Tool(radius=2, length=60)}
+    run = mnc.run(f"BEGIN PGM T MM\nTOOL CALL 2 Z S3000\nL X+20 Y-5 Z+50 R0 FMAX M3\n{blocks}\nEND PGM T MM\n", "tnc-620",
+                  mnc.Setup(tools=tools, kinematics=machine, stock=BLOCK, presets={0: (100, -50, -200)}))  # fmt: skip
+    assert run.ok, run.alarms
+    return run
+
+
+@pytest.mark.parametrize("machine", ["table-ac", "head-bc", "head-b-table-c"])
+def test_the_board_shows_where_the_axes_stand(opened, machine):
+    run = made(machine)
+    page, axes = opened(run), run.axes()
+    names = ["X", "Y", "Z", *run.setup.kinematics.names]
+    for row in [*np.flatnonzero(run.toolpath.is_motion)[::7].tolist(), len(run.toolpath) - 1]:
+        shown = dict(page.evaluate(READ, row))
+        assert list(shown) == names
+        for name in names:
+            assert float(shown[name].rstrip("°")) == pytest.approx(axes[name][row], abs=0.0006), (row, name)
+
+
+@pytest.mark.parametrize("machine", ["table-ac", "head-bc", "head-b-table-c"])
+def test_tool_and_part_stand_as_on_the_machine(opened, machine):
+    """With the part still the tool leans as the path says; with a table that turns a place of the part is seen where the machine
+    has it, by the camera that stands on the machine."""
+    run = made(machine)
+    page, path, chain = opened(run), run.toolpath, run.setup.kinematics
+    place = np.array([12.0, -7.0, -3.0])
+    still = page.evaluate(SEEN, [0, place.tolist()])  # all axes at zero: both are one
+    right, up = np.array(still["waystrue"])
+    for row in np.flatnonzero(path.is_motion)[::9].tolist():
+        seen = page.evaluate(SEEN, [row, place.tolist()])
+        assert np.allclose(seen["tool"][2], path.directions[row], atol=1e-8)
+        back = chain.carried(path.rotary[row], 0.0)  # with no length a head moves nothing
+        if chain.head:
+            back = mnc.Kinematics(table=chain.table).carried(path.rotary[row], 0.0) if chain.table else np.eye(4)
+        there = np.linalg.inv(back) @ np.append(place + path.origin, 1)
+        middle = np.linalg.inv(back) @ np.append(seen["targettrue"] + path.origin, 1)
+        off = (there - middle)[:3]
+        expected = np.array(seen["size"]) / 2 + seen["zoom"] * np.array([off @ right, -off @ up])
+        assert np.allclose(seen["true"], expected, atol=1e-6)
+        off = place - seen["targetfalse"]
+        expected = np.array(seen["size"]) / 2 + seen["zoom"] * np.array([off @ right, -off @ up])
+        assert np.allclose(seen["false"], expected, atol=1e-6)
+
+
+def test_a_button_lets_the_part_stand_still(opened):
+    page = opened(made("table-ac"))
+    button = page.get_by_role("button", name="Table turns")
+    assert button.get_attribute("aria-pressed") == "true"
+    page.keyboard.press("End")
+    page.wait_for_function("() => !window.player.waiting")
+    turned = page.evaluate("() => window.player.picture.camera.up")
+    button.click()
+    assert button.get_attribute("aria-pressed") == "false"
+    page.wait_for_function("() => !window.player.waiting")
+    upright = page.evaluate("() => window.player.picture.camera.up")
+    assert not np.allclose(turned, upright) and upright[0] == pytest.approx(-np.sin(np.radians(30)) * np.sin(np.radians(28)))
+    page.locator("#picture").press("t")
+    assert button.get_attribute("aria-pressed") == "true"
+
+
+def test_a_part_that_turns_stays_in_the_picture(opened):
+    """The corners of the blank, in every pose of the run, from the front, from above and askew."""
+    run = made("table-ac", "L A+90 C+45 F5000\nL A-60 C-200 F5000")
+    page = opened(run)
+    corners = [[x, y, z] for x in (-30, 30) for y in (-30, 30) for z in (-20, 0)]
+    for view in ("top", "front", "right", "isometric"):
+        page.evaluate("() => { window.player.picture.turning.moves = true; window.player.draw(); }")
+        page.evaluate("view => window.player.view(view)", view)
+        for row in range(3, len(run.toolpath), 11):
+            x, y = np.array([page.evaluate(SEEN, [row, corner])["true"] for corner in corners]).T
+            wide, high = page.evaluate("() => window.player.picture.camera.size")
+            assert x.min() > 0 and x.max() < wide and y.min() > 0 and y.max() < high, (view, row)
+
+
+def test_a_head_is_seen_as_far_as_its_axes(opened):
+    page = opened(made("head-bc", "L B+25 FMAX\nL X+0 Y+0 Z-3 FMAX\nL Y+10 F300\nL Z+50 FMAX"))
+    assert page.get_by_role("button", name="Table turns").count() == 0
+    inside = """() => {
+        const {picture, run} = window.player, [w, h] = picture.camera.size;
+        return picture.turning.heads.every(at => picture.camera.project(at).every((v, k) => v > 0 && v < [w, h][k]));
+    }"""
+    assert not page.evaluate(inside)
+    page.get_by_role("button", name="Head").click()
+    assert page.evaluate(inside)
+    page.get_by_role("button", name="Fit").click()
+    assert not page.evaluate(inside)
+
+
+def test_without_kinematics_the_page_has_no_axes(opened):
+    page = opened(made(None, "L X+0 F500"))
+    assert page.evaluate("() => typeof Chain") == "undefined"
+    assert [name for name, _ in page.evaluate(READ, 2)] == ["X", "Y", "Z"]
+    assert page.get_by_role("button", name="Table turns").count() == page.get_by_role("button", name="Head").count() == 0

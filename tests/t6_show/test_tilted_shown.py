@@ -1,0 +1,66 @@
+"""A tool that stands tilted on the part is drawn tilted: strokes in the views of a path, body and holder in space."""
+
+import numpy as np
+import pytest
+
+import mnclab as mnc
+from mnclab.show import solids
+from mnclab.show.plot import colours
+
+TOOL = mnc.Tool(radius=4, length=90, cutting_length=25, holder=((10, 35), (20, 50)))
+SQUARE = "L X+20 Y+0 Z+5 FMAX\nL X-20 F500\nL Y+20\nL Z+50 FMAX"
+
+
+def made(text, machine="table-ac", tool=TOOL):
+    setup = mnc.Setup(tools={2: tool}, kinematics=machine)
+    run = mnc.run(f"BEGIN PGM T MM\nTOOL CALL 2 Z S3000\nL X+0 Y+0 Z+50 R0 FMAX M3\n{text}\nEND PGM T MM\n", "tnc-620", setup)
+    assert run.ok, run.alarms
+    return run
+
+
+def strokes_of(picture, view):
+    """Tips and ends (k, 2, 2) of the strokes along the tool in one view."""
+    (line,) = (each for each in picture.axes[view].lines if each.get_label() == colours.TILTED.name)
+    return np.array(line.get_xydata()).reshape(-1, 3, 2)[:, :2]
+
+
+def test_strokes_stand_as_the_tool_does():
+    """A at 90 lays the part on its side: the tool comes along -Y. From above the strokes run there, from the front they are dots;
+    they are a sixth of the 40 mm that are cut, and every tip lies on the cut."""
+    run = made(f"L A+90 FMAX\n{SQUARE}")
+    above, front = (strokes_of(run.plot(view=view), 0) for view in ("XY", "XZ"))
+    assert np.allclose(above[:, 1] - above[:, 0], (0, -0.16 * 40), atol=1e-9)
+    assert np.allclose(front[:, 1], front[:, 0], atol=1e-9)
+    x, z = run.toolpath.end[run.toolpath.line == 6][0][[0, 2]]  # where X stands at -20 and Y begins
+    assert (np.isclose(front[:, 0, 0], x) | np.isclose(front[:, 0, 1], z)).all()
+
+
+def test_strokes_are_spread_evenly():
+    """24 strokes over 40 and 20 mm: one every 2.5 mm of way."""
+    tips = strokes_of(made(f"L A+30 FMAX\n{SQUARE}").plot(), 0)[:, 0]
+    along = tips[tips[:, 1] == tips[0, 1]]
+    assert len(tips) == 24 and np.allclose(np.diff(along[:, 0]), -2.5)
+
+
+@pytest.mark.parametrize("machine", ["table-ac", None])
+def test_a_tool_that_stands_upright_has_none(machine):
+    labels = [line.get_label() for ax in made(SQUARE, machine).plot().axes for line in ax.lines]
+    assert colours.TILTED.name not in labels
+
+
+def test_bodies_stand_on_the_tip_along_the_tool():
+    """Head B at 30 leans the tool to (sin 30, 0, cos 30), and C in the table at 90 turns that on the part to Y."""
+    run = made(f"L B+30 C+90 FMAX\n{SQUARE}", "head-b-table-c")
+    tip, along = run.toolpath.end[-1], (0, 0.5, np.sqrt(3) / 2)
+    assert np.allclose(run.toolpath.directions[-1], along)
+    for body, low, high, wide in ((solids.tool_of(run), 0, 1.3 * 25, 4), (solids.holder_of(run), 35, 90, 20)):
+        heights = (body.points - tip) @ along
+        assert heights.min() == pytest.approx(low) and heights.max() == pytest.approx(high)
+        assert np.linalg.norm(body.points - tip - heights[:, None] * along, axis=1).max() == pytest.approx(wide)
+        assert body.volume > 0
+    assert "holder" in run.scene().actors
+
+
+def test_a_tool_without_a_holder_has_none():
+    assert solids.holder_of(made("L A+30 FMAX", tool=mnc.Tool(radius=4, length=90))) is None
+    assert solids.holder_of(made(SQUARE, None)) is None
