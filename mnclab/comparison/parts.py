@@ -45,12 +45,12 @@ def not_comparable(runs: tuple[Any, Any], motions: tuple[Motion, Motion]) -> str
 def one_blank(runs: tuple[Any, Any]) -> Any:
     """The blank of the only one of two runs that has one, in the frame of the path; None if both have."""
     one, other = (run.stock for run in runs)
-    return None if (one is None) == (other is None) else one or other
+    return None if (one is None) == (other is None) else other if one is None else one
 
 
 def _placed(run: Any, stock: Any) -> Any:
     """The blank in machine coordinates where a run has none of its own."""
-    return None if run.stock or stock is None else stock.moved(run.toolpath.origin)
+    return stock.moved(run.toolpath.origin) if run.stock is None and stock is not None else None
 
 
 def around(runs: tuple[Any, Any], stock: Any) -> Around:
@@ -58,7 +58,7 @@ def around(runs: tuple[Any, Any], stock: Any) -> Around:
     run = runs[not runs[0].setup.fixtures and bool(runs[1].setup.fixtures)]
     origin, lathe = run.toolpath.origin, run.toolpath.lathe
     held = [each if isinstance(each, Part) else blank(each) for each in run.setup.fixtures]
-    bodies = {"the blank": run.stock or stock}
+    bodies = {"the blank": stock if run.stock is None else run.stock}
     bodies |= {f"fixture {k}" if len(held) > 1 else "the fixture": each for k, each in enumerate(held, 1)}
     bounds = {name: body.bounds - (0.0 if name == "the blank" else origin) for name, body in bodies.items() if body is not None}
     return Around(tuple(bounds), np.array([*bounds.values()]).reshape(-1, 2, 3), bool(held), lathe)
@@ -101,7 +101,7 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
             x, y = some[worst[1]].tolist()
             by = f"by {worst[0]:.3f} mm in height" if worst[0] < NOTHING / 2 else "in where there is material"
             return f"the parts differ {by} at X{x:.3f} Y{y:.3f}"
-    uncut = _heights(runs[0].stock or stock, points)
+    uncut = _heights(stock if runs[0].stock is None else runs[0].stock, points)
     if not any((each != uncut).any() for each in heights) and not any(part.removed > 0 for part in parts):
         return "neither of them cuts anything of its blank, so the parts prove nothing"
     return ""

@@ -272,7 +272,7 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     elif found:
         found = in_order([*found, *collided(runs, stock)], *motions)
         part = part_apart(runs, motions, tolerance, found, stock)
-        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock else ""
+        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock is not None else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
