@@ -354,8 +354,8 @@ def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tupl
     place = tuple(path.end[row].tolist()) if row >= 0 else ()
     program, move = run.programs[which], None if halt else path[row]
     if move is not None and move.side:  # what the block says, not the way of the centre that follows from it
-        same = np.flatnonzero((run.programmed.step == move.step) & run.programmed.is_motion)
-        move = run.programmed[same[-1]] if len(same) else move
+        said = run.programmed[slice(*np.searchsorted(run.programmed.step, (move.step, move.step + 1)))]
+        move = said[said.is_motion][-1] if said.is_motion.any() else move
     doing = "" if move is None else _doing(move, path.lathe)
     return line, program.name if which else name, program.line_text(line).strip(), place, doing
 
