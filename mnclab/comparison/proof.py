@@ -272,7 +272,7 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     elif found:
         found = in_order([*found, *collided(runs, stock)], *motions)
         part = part_apart(runs, motions, tolerance, found, stock)
-        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock else ""
+        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock is not None else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
@@ -354,8 +354,8 @@ def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tupl
     place = tuple(path.end[row].tolist()) if row >= 0 else ()
     program, move = run.programs[which], None if halt else path[row]
     if move is not None and move.side:  # what the block says, not the way of the centre that follows from it
-        same = np.flatnonzero((run.programmed.step == move.step) & run.programmed.is_motion)
-        move = run.programmed[same[-1]] if len(same) else move
+        said = run.programmed[slice(*np.searchsorted(run.programmed.step, (move.step, move.step + 1)))]
+        move = said[said.is_motion][-1] if said.is_motion.any() else move
     doing = "" if move is None else _doing(move, path.lathe)
     return line, program.name if which else name, program.line_text(line).strip(), place, doing
 

@@ -64,7 +64,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     kind = np.where((lower > tolerance) & (not a.lathe), LOWER, HIGHER)
     told: dict[int, list[Any]] = {}
     bent = (beside > tolerance) | (a.turns[i] > 1) | (b.turns[j] > 1)
-    goes = (kind == HIGHER) & (a.lathe | ((j > 0) & np.isfinite(b.low[j]) & bent))
+    goes = (kind == HIGHER) & (a.lathe | (bent & np.isfinite(b.low[j])))
     least = a.least(around) if goes.any() else np.empty(0)
     for k in np.flatnonzero(goes)[:MOST].tolist():
         kind[k], *told[k] = _elsewhere(a, int(i[k]), b, int(j[k]), tolerance, around, least)

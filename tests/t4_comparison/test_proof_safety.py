@@ -34,6 +34,12 @@ def test_a_detour_that_is_dropped_is_never_harmless(ways, setup):
     assert "X-20 Y-20 Z5" in found.first.values[1] or "X10 Y40 Z5" in found.first.values[1]
 
 
+def test_what_stands_on_the_way_to_the_first_cut_may_be_hit_too():
+    """Nobody knows from where the tool comes; then one goes X40 Y40 and from there to the first cut."""
+    found = proof(path(BEFORE), path(BEFORE).replace("G0 X0 Y0 Z5", "G0 X40 Y40 Z5\nX0 Y0"))
+    assert found.counts == {"aside": 1} and found.first.lines == (5, 5)
+
+
 def test_above_what_the_other_went_over_it_is_harmless():
     for other in (path(BEFORE, 5.5), path(AROUND, 20)):
         found = proof(path(AROUND), other.replace("G0 X0 Y0 Z20", "G0 X0 Y0 Z5"))
