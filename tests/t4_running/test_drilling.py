@@ -28,7 +28,8 @@ cycle = st.sampled_from(
 between = st.sampled_from(
     ["G80", "G80", "G80\nG0 Z20", "G80\nG90\nG0 Z20", "G0 Z20", "M8", "M9", "(next)", "G80\nM5\nG0 Z50\nT2 M6\nG43 H2\nS900 M3",
      "G98", "G99", "F200", "S800", "G91", "G90", "G55", "G54", "G1 X5 F300", "G0 X5 Y5", "G4 P1", "G80\nG4 X1.5", "G80\nT1 M6",
-     "G68 X1 Y1 R30", "G69", "G52 X3", "G92 X4", "G80 G28 Z0", "G94", "G20", "G21", "N100", "#1=5", "M98 P20 L2", "M98 P20", "M98 P21"]
+     "G68 X1 Y1 R30", "G69", "G52 X3", "G92 X4", "G80 G28 Z0", "G94", "G20", "G21", "N100", "#1=5", "M98 P20 L2", "M98 P20",
+     "M98 P21"]
 )  # fmt: skip
 odd = st.sampled_from(
     ["R4", "Z-5", "K2", "X4 K3", "X5 Z-6", "X5 F70", "X5 P300", "Q1", "G95 F0.1", "N7 X7", "/X7", "X#1", "X9 X9", "X5 Q0",
