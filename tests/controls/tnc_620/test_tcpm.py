@@ -246,6 +246,13 @@ def test_machine_coordinates_are_those_of_the_axes(machine: str) -> None:
     assert axes[-1, 0] == pytest.approx(-5)
 
 
+def test_angles_where_the_axes_stand_turn_nothing() -> None:
+    """Ten degrees are a number that rad round: said once more they are no turn, under compensation neither."""
+    found = run("L C+10 FMAX\nL X+5 Y+0 C+10 RL F500 M3\nL X+30 C+10\nL Y+50 R0", kinematics="table-ac")
+    assert [Kind(kind).name for kind in found.toolpath.kind[-3:]] == ["LINE"] * 3
+    assert np.isnan(found.toolpath.time[-3:]).all()
+
+
 def test_a_shift_and_a_mirror_image_of_rotary_axes() -> None:
     found = run("TRANS DATUM AXIS C+30\nL C+10 FMAX\nCYCL DEF 8.0 M\nCYCL DEF 8.1 C\nL C+10 FMAX", kinematics="table-ac")
     assert [float(found.axes().C[found.toolpath.line == line][-1]) for line in (3, 6)] == pytest.approx([40, 20])
