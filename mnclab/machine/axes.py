@@ -284,10 +284,11 @@ def swing(
         m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)
     label = m.label or (f"tip led within {tolerance:g} mm" if led else "")
     ways = np.linalg.norm(np.diff(tips, axis=0), axis=1)
-    if led and math.isfinite(most):
-        needed = float(np.linalg.norm(np.diff(linear, axis=0), axis=1).sum()) / most
-        if needed > (minutes if minutes is not None and math.isfinite(minutes) else float(ways.sum()) / f):
-            minutes = needed
+    takes = minutes if minutes is not None else math.inf if math.isinf(f) else float(ways.sum()) / f
+    if led and math.isfinite(most) and (math.isfinite(takes) or point is None):
+        slowest = float(np.linalg.norm(np.diff(linear, axis=0), axis=1).sum()) / most
+        if slowest > (takes if math.isfinite(takes) else 0.0):
+            takes = minutes = slowest
     x, y, z = tips[-1].tolist()
     with m.within(label=label):
         for k in range(count):
@@ -295,14 +296,12 @@ def swing(
             m.put(rotary=(a, b, c))
             tip = tuple(tips[k + 1].tolist())
             way = float(ways[k])
-            if minutes is None:
-                m.add_row(Kind.RAPID if math.isinf(f) else Kind.LINE, tip, feed=f)
-            elif math.isinf(minutes):
+            if math.isinf(takes):
                 m.add_row(Kind.RAPID, tip, feed=math.inf)
             else:
-                seconds = 60 * minutes / count
-                turned = float(np.abs(turning[k + 1] - turning[k]).max())
-                m.add_row(Kind.LINE, tip, feed=60 * (way if way > STILL else turned) / seconds, time=seconds)
+                seconds, turned = 60 * takes / count, float(np.abs(turning[k + 1] - turning[k]).max())
+                rate = f if minutes is None else 60 * (way if way > STILL else turned) / seconds
+                m.add_row(Kind.LINE, tip, feed=rate, time=seconds)
             m.tip = tip
     m.log("rotary", m.rotary)
     came = np.sign(np.where(np.abs(after - before) > SAME, after - before, m.arrived))

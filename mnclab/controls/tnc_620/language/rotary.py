@@ -57,7 +57,7 @@ def turned(m: Machine, words: Words, to: dict[str, Any], f: float | None) -> boo
         return False
     led = memory(m).led
     goal = by_direction(m, words, led) if led is not None and led.spatial is not None else positions(m, words)
-    if goal == angles(m):
+    if all(abs(new - old) < STILL for new, old in zip(goal, angles(m), strict=True)):  # degrees, which rad have rounded
         return False
     refuse_turn(m, named[0])
     if m.tables.kinematics is None:
