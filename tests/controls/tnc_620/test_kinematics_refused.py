@@ -9,7 +9,10 @@ from tools.together import together
 
 import mnclab as mnc
 from mnclab import Alarm, Axis, Kinematics
+from mnclab.machine import trial
+from mnclab.machine.axes import reckon
 from mnclab.path.machines import kinematics_of
+from mnclab.running.interpreter import Interpreter
 
 TABLE = kinematics_of("table-ac")
 BOTH = {"A": (-60, 60, 30, 3), "C": (90, 270, 45, 3)}
@@ -81,6 +84,21 @@ def test_a_machine_is_refused_at_the_block(before, setup, says, number):
     assert says in alarm.message
     line = 2 if before.startswith("TOOL") else 2 + before.count("\n")
     assert (alarm.span.line, alarm.span.column) == (line, 1)
+
+
+@pytest.mark.parametrize("number", [451, 452])
+def test_a_led_tip_is_refused(number):
+    """M128 and FUNCTION TCPM, whose coordinates count with the axes as they stand."""
+    control = mnc.controls["tnc-620"]
+    interpreter = Interpreter(control, sphere_setup(TABLE), mnc.read(f"TOOL CALL {TOOL} Z\n", "tnc-620"))
+    interpreter.run()
+    made = control.cycles[f"TCH PROBE {number}"]
+    given = made(**{p.name: trial.first_value(p) for p in made.parameters()})
+    assert not list(given.check(interpreter.machine))
+    reckon(interpreter.machine, None)
+    assert [sentence for _, sentence in given.check(interpreter.machine)] == [
+        "cannot run while the tip of the tool is led: switch off M128 or FUNCTION TCPM before it"
+    ]
 
 
 def test_a_sphere_that_swings_into_the_way_is_met():
