@@ -1,6 +1,5 @@
 """The names at the front door."""
 
-from mnclab.comparison.diff import diff as diff
 from mnclab.comparison.strategies import compare as compare
 from mnclab.comparison.tool_sets import tool_sets as tool_sets
 from mnclab.comparison.turning_schemes import compare as compare_turning
@@ -11,6 +10,7 @@ from mnclab.controls.choice import read as read
 from mnclab.controls.choice import renumber as renumber
 from mnclab.controls.choice import run as run
 from mnclab.controls.cycle_steps import steps as steps
+from mnclab.controls.proving import diff as diff
 from mnclab.controls.proving import prove as prove
 from mnclab.controls.survey import check as check
 from mnclab.controls.survey import run_many as run_many

@@ -202,12 +202,14 @@ def parser() -> argparse.ArgumentParser:
     sub.add_argument("--tolerance", type=float, default=0.05, metavar="MM", help=says)
     sub.add_argument("-o", "--output", metavar="OUT", help=f"the suffix says what: {COMPARED}")
     options(sub, "verdict, worst places and table on stdout as one object instead")
-    sub = command("prove", prove, "say whether two programs make the same motion, or the same part; status 1 if they do not")
+    sub = command("prove", prove, "say whether two programs make the same motion, or the same part; status 1 if they do not: if "
+                  "more than lifts, chords or order differs; 2 if one cannot be read")
     sub.add_argument("other", metavar="OTHER", help="the program that is compared with the first one, which is trusted")
     sub.add_argument("--tolerance", type=float, default=0.001, metavar="MM", help="(default: 0.001)")
     says = "what may differ: lifts (between cuts, nowhere lower), chords (for arcs, within the tolerance), order (of the cuts)"
     sub.add_argument("--allow", type=words, default=(), metavar="lifts,chords,order", help=says)
-    sub.add_argument("--html", metavar="OUT.html", help="a page with the first difference and its picture")
+    sub.add_argument("--same-motion", action="store_true", help="status 1 for the same part made another way, too")
+    sub.add_argument("--html", metavar="OUT.html", help="a page with the differences, and a picture of the first")
     sub.add_argument("--controls", type=words, metavar="A,B", help="of both (default: from their suffixes or texts)")
     sub.add_argument("--setup", metavar="S.toml", help="of both: tools, datums, blank, start, settings")
     sub.add_argument("--json", action="store_true", help="verdict and differences on stdout as one object instead")
@@ -354,12 +356,18 @@ def prove(chosen: argparse.Namespace) -> int:
     setup = None if chosen.setup is None else sensible(load, chosen.setup)
     controls = chosen.controls or [None]
     files = chosen.file, chosen.other
-    one, other = (mnclab.run(program(file), control, setup) for file, control in zip(files, (controls[0], controls[-1])))
-    found = sensible(partial(mnclab.prove, tolerance=chosen.tolerance, allow=chosen.allow), one, other)
+    runs = []
+    for file, control in zip(files, (controls[0], controls[-1])):
+        try:
+            runs.append(mnclab.run(program(file), control, setup))
+        except Alarm as alarm:  # no file, or none of a control
+            say(alarm, file)
+            return USAGE
+    found = sensible(partial(mnclab.prove, tolerance=chosen.tolerance, allow=chosen.allow), *runs)
     if chosen.html:
         sensible(found.save, chosen.html)
     print(json.dumps(found.as_dict(), allow_nan=False) if chosen.json else found)
-    return ALARMS if found.verdict == "different" else CLEAN
+    return CLEAN if (found.verdict == "same motion" if chosen.same_motion else found.harmless) else ALARMS
 
 
 def drawing(chosen: argparse.Namespace) -> int:

@@ -10,21 +10,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, Protocol, Unpack, overload, runtime_checkable
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.comparison.pairs import same_places
 from mnclab.geometry.curves import counted
-from mnclab.path.holes import Holes, holes, places
+from mnclab.path.holes import Holes, places
 from mnclab.path.limits import Limits
 from mnclab.path.listing import MM, Unit, figure, point
 from mnclab.path.places import points
-from mnclab.path.profile import Profile
 from mnclab.path.profile.ramps import bent
 from mnclab.path.toolpath import Toolpath
-from mnclab.text.alarm import Alarm, several
-from mnclab.text.given import FigureOptions, check_number, choice, fitting, shown
+from mnclab.text.alarm import several
+from mnclab.text.given import FigureOptions, check_number, fitting
 from mnclab.text.tables import Listing, Pictured, html_table, shapes
 
 if TYPE_CHECKING:
@@ -182,7 +182,7 @@ def deviation(
     check_number(step, "step (mm)", above=0, at_least=longest / MOST)
     strokes = [strokes_of(path, chord_error) for path in (one, other)]
     looks = [_places(*parts, step) for parts in strokes]
-    first, second = (Traces(*look, _nearest(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
+    first, second = (Traces(*look, nearest_of(look[0], *against[:2])) for look, against in zip(looks, strokes[::-1]))
     return Deviation((one, other), names, first, second, step, times, reaches, rapids)
 
 
@@ -216,7 +216,7 @@ def _places(start: Array, end: Array, row: NDArray[np.int64], step: float) -> tu
     return start[stroke] + part[:, None] * (end - start)[stroke], row[stroke]
 
 
-def _nearest(places: Array, start: Array, end: Array) -> Array:
+def nearest_of(places: Array, start: Array, end: Array) -> Array:
     """The nearest place on any stroke (m, 3).
 
     Strokes are put into boxes in their order. The box of the nearest of some strokes gives a distance; only boxes that come
@@ -323,98 +323,12 @@ class HolesCompared(Pictured, Listing):
 def compare_holes(one: Holes, other: Holes, names: tuple[str, str], tolerance: float = TOLERANCE) -> HolesCompared:
     """Which holes of one the other has too: centre and diameter within `tolerance` mm."""
     first, second = places(one), places(other)
-    taken = np.zeros(len(second), dtype=bool)
-    order = np.argsort(second[:, 0], kind="stable")
-    across = second[order, 0]
-    both = []
-    for k, row in enumerate(first):
-        near = order[np.searchsorted(across, row[0] - tolerance) : np.searchsorted(across, row[0] + tolerance, "right")]
-        near = near[~taken[near]]
-        fit = near[(np.hypot(*(second[near, :2] - row[:2]).T) <= tolerance) & (abs(second[near, 2] - row[2]) <= tolerance)]
-        if len(fit):
-            taken[fit[0]] = True
-            both.append(k)
-    found = np.isin(np.arange(len(first)), both)
-    return HolesCompared(names, first[found], (first[~found], second[~taken]), tolerance, (one.reach, other.reach))
+    both = same_places(first[:, :3], second[:, :3], tolerance, (slice(2), slice(2, 3)))
+    only = np.delete(first, both[:, 0], axis=0), np.delete(second, both[:, 1], axis=0)
+    return HolesCompared(names, first[both[:, 0]], only, tolerance, (one.reach, other.reach))
 
 
-# Two runs, or two paths, laid over one another.
-#
-# A run is known here by what is compared of it: its path, its name and its time.
-
-@runtime_checkable
-class Ran(Protocol):
-    """A run."""
-
-    toolpath: Toolpath
-    program: Any
-    control: Any
-
-    @property
-    def reach(self) -> str:
-        """Up to where it ran, empty where it ran to its end."""
-
-    @property
-    def rapids(self) -> Limits:
-        """The limits under which its rapids go."""
-
-    def holes(self) -> Holes:
-        """What is drilled."""
-
-    def profile(self) -> Profile:
-        """When the tool is where, under the limits of its setup."""
-
-
-@overload
-def diff(one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None) -> Deviation: ...
-
-
-@overload
-def diff(
-    one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None, *, what: str, tolerance: float = TOLERANCE
-) -> Deviation | HolesCompared: ...
-
-
-@fitting
-def diff(
-    one: Ran | Toolpath, other: Ran | Toolpath, step: float | None = None, *, what: str = "path", tolerance: float = TOLERANCE
-) -> Deviation | HolesCompared:
-    """Two runs, or two paths, laid over one another: the largest deviation (mm) and where; `.plot()` shows both.
-
-    Two programs, two controls, two tool radii, two limits (of their setups: the times differ); `step` mm is how
-    closely the paths are looked at. With `what="holes"` their holes (see `path.holes`) are compared instead, whatever the
-    order and the heights: places and diameters within `tolerance` mm; `.same` says whether they are the same.
-
-    >>> one, other = mnc.run("G1 X10 F100\\n", "mnc"), mnc.run("G1 X10 Y0.5 F100\\n", "mnc")
-    >>> mnc.diff(one, other).largest
-    0.5
-    """
-    for each in (one, other):
-        if not isinstance(each, Ran | Toolpath):
-            raise Alarm(f"two runs or two paths can be compared, got {shown(each)}", hint="diff(run(…), run(…))")
-    check_number(tolerance, "the tolerance (mm)", at_least=0)
-    if choice(what, "what", ("path", "holes")) == "holes":
-        found = [holes(each) if isinstance(each, Toolpath) else each.holes() for each in (one, other)]
-        return compare_holes(found[0], found[1], names_of(one, other), tolerance)
-    times = None
-    if not isinstance(one, Toolpath) and not isinstance(other, Toolpath):
-        times = one.profile().time, other.profile().time
-    paths = [each if isinstance(each, Toolpath) else each.toolpath for each in (one, other)]
-    reaches, rapids = (_reach(one), _reach(other)), (_rapids(one), _rapids(other))
-    return deviation(paths[0], paths[1], names_of(one, other), step, times=times, reaches=reaches, rapids=rapids)
-
-
-def _rapids(one: Ran | Toolpath) -> Limits | None:
-    """How the rapids of a run go; nobody knows it of a path."""
-    return None if isinstance(one, Toolpath) else one.rapids
-
-
-def _reach(one: Ran | Toolpath) -> str:
-    """How far a run went that stopped before its end."""
-    return "" if isinstance(one, Toolpath) else one.reach
-
-
-def names_of(one: Ran | Toolpath, other: Ran | Toolpath) -> tuple[str, str]:
+def names_of(one: Any, other: Any) -> tuple[str, str]:
     """What both are called: their programs, and where these are called alike, their controls or their order too."""
     first, second = ("path" if isinstance(each, Toolpath) else str(each.program.title) for each in (one, other))
     if first != second:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mnclab.comparison.diff import deviation
-from mnclab.comparison.found import RATE, Found, from_where, grouped, rows_of
+from mnclab.comparison.contour import of_contour
+from mnclab.comparison.diff import deviation, nearest_of, strokes_of
+from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.comparison.pairs import Pairs, apart, paired
-from mnclab.comparison.ways import links, of_dwells, of_links
+from mnclab.comparison.pairs import Pairs, alongside, apart, paired, same_places
+from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
@@ -21,23 +23,41 @@ from mnclab.text.alarm import several
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
 BENT = 0.01  # rad: as much less of arcs has the one that has chords in their place
 CHAIN = 3  # cuts in place of one: fewer are compared one by one
+CAUSES, FIRST = ("", "tool", "side", "depth", "geometry", "rapid", "nearer", "aside", "spindle", "feed"), 4  # "": missing
+CUTS = ("geometry", "depth", "side")  # kinds
 LONGEST = 4000  # cuts of a stretch that is looked at as a whole
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
 
 
-def differences(one: Motion, other: Motion, tolerance: float) -> list[Found]:
-    """All that differs, in the order of the motion."""
+def differences(one: Motion, other: Motion, tolerance: float, around: Around) -> list[Found]:
+    """All that differs, in the order of the motion; `around` is what stands on the machine."""
     pairs = paired(one, other, tolerance)
     found, more, parts = _of_stretches(one, other, pairs, tolerance)
     i, j = np.concatenate([pairs.i, more[:, 0]]), np.concatenate([pairs.j, more[:, 1]])
     within = [_side_by_side(one, other, *each) for each in parts]
-    found += _of_settings(one, other, *np.unique(np.hstack([(i, j), *within]), axis=1))
+    a, b = np.unique(np.hstack([(i, j), *within]), axis=1)
+    found += _of_settings(one, other, a, b, tolerance)
     between = links(one, other, i, j, parts)
-    found += of_links(one, other, *between, tolerance)
+    found += of_links(one, other, *between, tolerance, around)
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
-    return sorted(found, key=lambda each: (each.rows[1], each.rows[0]))
+    found = [of_contour(each, one, other, tolerance) if each.kind in CUTS else each for each in found]
+    return in_order(found, one, other)
+
+
+def in_order(found: list[Found], one: Motion, other: Motion) -> list[Found]:
+    """In the order of the motion; of what differs at one cut, on the way to it or in one block first what causes the rest."""
+    lasts = [motion.last[motion.cuts] for motion in (one, other)]
+
+    def place(each: Found) -> tuple[int, bool, int, int]:
+        k = int(each.rows[1] >= 0)
+        motion, row = (one, other)[k], each.rows[k]
+        begins = int(np.searchsorted(motion.path.step, motion.path.step[row])) if row >= 0 else -1
+        cause = CAUSES.index("" if each.values[1] == NONE else each.kind) if each.kind in CAUSES else len(CAUSES)
+        return int(np.searchsorted(lasts[k], row)), cause >= FIRST, begins, cause
+
+    return sorted(found, key=place)
 
 
 # Cuts that are not the same.
@@ -46,49 +66,53 @@ def _of_stretches(
     one: Motion, other: Motion, pairs: Pairs, tolerance: float
 ) -> tuple[list[Found], NDArray[np.int64], list[tuple[int, int, int, int]]]:
     """What differs where cuts are not the same, the pairs (k, 2) of cuts that are still each other's, and stretches that are."""
-    chords = [*pairs.chords]
-    odd, same = [], list[tuple[int, int, int, int]]()
-    for stretch in pairs.odd:
+    found, odd, one_way = list[Found](), [], []
+    for stretch in [*pairs.chords, *pairs.odd]:
         i, to_i, j, to_j = stretch
         longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
-        alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
-        if alike is not None:
-            bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-            (same if abs(bent[0] - bent[1]) < BENT else chords).append(alike)
-        else:
+        alike = stretch if stretch in pairs.chords else None
+        alike = alike or next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
+        if alike is None:
             odd.append(stretch)
-    found = []
-    for i, to_i, j, to_j in chords:
+            continue
+        i, to_i, j, to_j = alike
+        one_way.append(alike)
         bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
-        arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
-        found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
-    more = []
-    left = [np.concatenate([np.arange(s[k], s[k + 1]) for s in odd] or [np.empty(0, np.int64)]) for k in (0, 2)]
+        if abs(bent[0] - bent[1]) >= BENT:
+            arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
+            found.append(Found("chords", rows_of(one, i, other, j), 0.0, "mm", arcs, max(to_i - i, to_j - j)))
+    more, lone = list[tuple[int, int]](), []
+    for i, to_i, j, to_j in odd:
+        a, b = np.arange(i, to_i), np.arange(j, to_j)
+        p, q = alongside(one, a, other, b, tolerance)
+        begun = np.linalg.norm(one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]], axis=1)
+        fits = np.maximum(apart(one, one.cuts[a[p]], other, other.cuts[b[q]]), begun) <= tolerance
+        more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
+        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
+    left = [np.concatenate([each[k] for each in lone] or [np.empty(0, np.int64)]) for k in (0, 1)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
     more += [(i, j) for i, j in moved.tolist()]
-    for i, to_i, j, to_j in odd:
-        a = np.setdiff1d(np.arange(i, to_i), moved[:, 0])
-        b = np.setdiff1d(np.arange(j, to_j), moved[:, 1])
-        many = min(len(a), len(b))
-        if many == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
-            begins = int(one.row[one.cuts[a[0]]]), int(other.row[other.cuts[b[0]]])
-            if len(a) == 1:
-                row, off = _leaves(other, other.cuts[b], one, int(a[0]), tolerance)
-                rows = begins[0], row
-            else:
-                row, off = _leaves(one, one.cuts[a], other, int(b[0]), tolerance)
-                rows = row, begins[1]
-            found.append(Found("geometry", rows, off, "mm", ("", ""), max(len(a), len(b))))
+    for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
+        a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
+        if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
+            rows, k = [*rows_of(one, int(a[0]), other, int(b[0]))], int(len(a) == 1)
+            many = (one.cuts[a], other.cuts[b])[k]
+            rows[k], off = _leaves((one, other)[k], many, (other, one)[k], int((b, a)[k][0]), tolerance)
+            found.append(Found("geometry", (rows[0], rows[1]), off, "mm", ("", ""), max(len(a), len(b))))
             more.append((int(a[0]), int(b[0])))
             continue
-        found += _not_alike(one, a[:many], other, b[:many], tolerance)
-        more += zip(a[:many].tolist(), b[:many].tolist())
-        if len(a) > many:
-            found.append(_only(one, a[many:], other, to_j, 0, tolerance))
-        if len(b) > many:
-            found.append(_only(other, b[many:], one, to_i, 1, tolerance))
-    return found, np.array(more, dtype=np.int64).reshape(-1, 2), [*chords, *same]
+        p, q = alongside(one, a, other, b, tolerance)
+        found += _not_alike(one, a[p], other, b[q], tolerance)
+        more += zip(a[p].tolist(), b[q].tolist())
+        for k, cuts, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
+            alone = np.delete(np.arange(len(cuts)), met[0])
+            for ranks in np.split(alone, np.flatnonzero(np.diff(cuts[alone]) > 1) + 1):
+                behind = [*met[1][np.searchsorted(met[0], ranks[:1].sum()) :].tolist(), beyond][0]
+                long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
+                if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
+                    found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
+    return found, np.array(more, dtype=np.int64).reshape(-1, 2), one_way
 
 
 def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, tolerance: float) -> Found:
@@ -96,16 +120,33 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     cuts = motion.cuts[ranks]
     begin = other.cuts[there - 1] + 1 if there else 0
     moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
-    way, row, said = float(motion.lengths[cuts].sum()), -1, "none"
-    if len(moves):  # the nearest to it, which may be the same at rapid
+    way, row, said = float(motion.lengths[cuts].sum()), int(other.row[-1]) if len(other) else -1, NONE
+    if len(moves):
         off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
         near = moves[off.argmin()]
-        rapid = off.min() <= tolerance and other.kind[near] == Kind.RAPID
-        row, said = int((other.last if rapid else other.row)[near]), "at rapid" if rapid else said
+        if off.min() <= tolerance and other.kind[near] == Kind.RAPID:  # the same at rapid
+            row, said = int(other.last[near]), "at rapid"
+        else:  # where it would stand: behind the move that ends where it begins
+            gone = other.start[moves] - motion.start[cuts[0]]
+            off, flat = np.linalg.norm(gone, axis=1), np.linalg.norm(gone[:, :2], axis=1)
+            last = len(moves) - 1 - int((flat <= flat.min() + tolerance)[::-1].argmax())
+            row = int(other.row[moves[off.argmin() if off.min() <= tolerance else last]])
     both = [(_leaves(motion, cuts, other, there, tolerance)[0], several(len(cuts), "cut")), (row, said)]
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: float) -> bool:
+    """Whether a cut is where the cut `there` of the other, which goes on straight, begins."""
+    if len(ranks) != 1 or there >= len(other.cuts):
+        return False
+    a, b = motion.cuts[ranks[0]], other.cuts[there]
+    begins = bool(np.linalg.norm(motion.start[a] - other.start[b]) <= tolerance)
+    begins |= ranks[0] > 0 and bool(motion.cuts[ranks[0] - 1] == a - 1)  # else the cut before it is told
+    gone, whole = motion.end[a] - other.start[b], other.end[b] - other.start[b]
+    beside = float(np.linalg.norm(np.cross(gone, whole))) <= tolerance * float(np.linalg.norm(whole))
+    return begins and beside and bool(0 < gone @ whole < whole @ whole and motion.kind[a] == other.kind[b] == Kind.LINE)
 
 
 def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: float) -> tuple[int, float]:
@@ -115,14 +156,8 @@ def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: f
     if there >= len(other.cuts):
         return int(rows[0]), float("nan")
     cut, ends = other.cuts[there], motion.path.end[rows]
-    if other.kind[cut] == Kind.ARC:
-        spokes = np.stack([ends, np.broadcast_to(other.start[cut], ends.shape)]) - other.centre[cut]
-        spokes -= (spokes @ other.axis[cut])[..., None] * other.axis[cut]
-        off = np.abs(np.subtract(*np.linalg.norm(spokes, axis=2)))
-    else:
-        begin, way = other.start[cut], other.end[cut] - other.start[cut]
-        share = ((ends - begin) @ way / max(float(way @ way), 1e-12)).clip(0.0, 1.0)
-        off = np.linalg.norm(ends - begin - share[:, None] * way, axis=1)
+    begin, end, _ = strokes_of(other.path[other.row[cut] : other.last[cut] + 1], tolerance / 10)
+    off = np.linalg.norm(ends - nearest_of(ends, begin, end), axis=1)
     first = int(np.argmax(off > tolerance))
     return int(rows[first]), float(off[first]) if off[first] > tolerance else float("nan")
 
@@ -157,7 +192,9 @@ def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, t
     halfway = [points_at(each, *_at_shares(each)) for each in (p, q)]  # the same way round
     if np.linalg.norm(halfway[0] - halfway[1], axis=1).max() > tolerance + ROUGH * p.length:
         return False
-    return bool(deviation(p, q, step=max(p.length / 2000, tolerance), chord_error=tolerance / 10).largest <= tolerance)
+    bent = (p.kind == Kind.ARC).any() or (q.kind == Kind.ARC).any()  # of lines the ends are enough
+    step = max(p.length / 2000, tolerance) if bent else p.length
+    return bool(deviation(p, q, step=step, chord_error=tolerance / 10).largest <= tolerance)
 
 
 def _at_shares(path: Toolpath) -> tuple[Index, Array]:
@@ -171,42 +208,45 @@ def _at_shares(path: Toolpath) -> tuple[Index, Array]:
 def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> list[Found]:
     """What is wrong with cuts that are each other's."""
     p, q = one.cuts[i], other.cuts[j]
-    off = apart(one, p, other, q)
+    off, begins = apart(one, p, other, q), np.linalg.norm(one.start[p] - other.start[q], axis=1)
+    follow = np.append(False, (np.diff(i) == 1) & (np.diff(j) == 1))  # the start is the end of a cut that is told
+    off = np.where((off <= tolerance) & ~follow[: len(off)], begins, off)
     wrong = off > tolerance
     i, j, p, q, off = i[wrong], j[wrong], p[wrong], q[wrong], off[wrong]
     step = np.abs(one.end[p] - other.end[q])
     mill = not (one.path.lathe or other.path.lathe)
     deep = mill & (np.hypot(step[:, 0], step[:, 1]) <= tolerance) & (np.abs(off - step[:, 2]) <= tolerance)
     off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
+    lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
-        for each in grouped(kind, one, i[mask], other, j[mask], lambda k: ("", ""), off[mask]):
+        tips = np.stack(lift, axis=1)[mask]
+        for each in grouped(kind, one, i[mask], other, j[mask], partial(_off_table, tips, tolerance), off[mask]):
             found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
+
+
+def _off_table(tips: Array, tolerance: float, k: int) -> tuple[str, str]:
+    """How much higher than programmed the tips (k, 2) of both tools are, in words, where that is not the same."""
+    if abs(tips[k, 0] - tips[k, 1]) <= tolerance:
+        return "", ""
+    words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in tips[k].tolist())
+    one, other = (word if much else "no delta length" for word, much in zip(words, tips[k]))
+    return one, other
 
 
 def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:
     """Of cuts that are left, those pairs (k, 2) that are the same, whatever the order."""
     p, q = one.cuts[i], other.cuts[j]
-    if not (len(p) and len(q)):
-        return np.empty((0, 2), dtype=np.int64)
-    places = np.concatenate([np.hstack([m.kind[e, None].astype(float), m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))])
-    keys = np.zeros(places.shape, dtype=np.int64)
-    for k in range(places.shape[1]):  # numbers with no gap between them are one number
-        order = np.argsort(places[:, k], kind="stable")
-        keys[order[1:], k] = np.cumsum(np.diff(places[order, k]) > tolerance)
-    known: dict[bytes, list[int]] = {}
-    for rank, key in enumerate(keys[len(p) :]):
-        known.setdefault(key.tobytes(), []).append(rank)
-    met = [(a, known[key.tobytes()].pop(0)) for a, key in enumerate(keys[: len(p)]) if known.get(key.tobytes())]
-    pair = np.array(met, dtype=np.int64).reshape(-1, 2)
+    tables = [np.column_stack([m.kind[e], m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))]
+    pair = same_places(tables[0], tables[1], tolerance, (slice(1), slice(1, 4), slice(4, 7)))
     good = apart(one, p[pair[:, 0]], other, q[pair[:, 1]]) <= tolerance
     return np.stack([i[pair[good, 0]], j[pair[good, 1]]], axis=1)
 
 
 # How they are cut.
 
-def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Found]:
+def _of_settings(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -> Iterator[Found]:
     """Feed, speed, coolant, tool and side of cuts that are each other's."""
     p, q = one.cuts[i], other.cuts[j]
 
@@ -222,20 +262,31 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index) -> Iterator[Fou
 
     turns = np.isfinite(one.per_rev[p]) & np.isfinite(other.per_rev[q])
     a, b = (np.where(turns, np.nan, m.feed[e]) for m, e in ((one, p), (other, q)))
-    yield from told("feed", a, b, "mm/min", _named("F"), RATE)
+    mixed = np.isfinite(one.per_rev[p]) != np.isfinite(other.per_rev[q])
+    for here, name in ((~mixed, _named("F")), (mixed, _named("", " mm/min"))):
+        yield from told("feed", np.where(here, a, 0), np.where(here, b, 0), "mm/min", name, RATE)
     a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
+    a, b = one.held[p].astype(int), other.held[q].astype(int)
+    yield from told("restart", a, b, "", lambda held: "held through the tool change" if held else "started behind it")
     a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
     yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
-    yield from told("spindle", one.spindle[p], other.spindle[q], "rev/min", _turning, RATE)
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
+    even = np.isnan(one.surface[p]) == np.isnan(other.surface[q])
+    a, b = (np.where(even, m.spindle[e], 0) for m, e in ((one, p), (other, q)))
+    yield from told("spindle", a, b, "rev/min", _turning, RATE)
     yield from told("coolant", one.coolant[p], other.coolant[q], "", lambda value: FLOWS[value])
     numbers = [m.path.tool[m.row[e]] for m, e in ((one, p), (other, q))]
     yield from told("tool", one.tool[p], other.tool[q], "", lambda value: f"T{value}", shown=numbers)
     a, b = (np.where(one.tool[p] == other.tool[q], each, 0) for each in numbers)
     yield from told("number", a, b, "", lambda value: f"T{value}")
     yield from told("tool", one.radius[p], other.radius[q], "mm", _named("radius "), 1e-4)
-    yield from told("side", one.side[p], other.side[q], "", lambda value: SIDES[int(value)])
+    a, b = one.side[p], other.side[q]
+    half = (a != b) & (a * b == 0)  # only one compensates: where the way is the same, the other says that of the centre
+    which = np.cumsum(half & ~np.append(False, half[:-1]))
+    alike = np.bincount(which[half], apart(one, p, other, q)[half] <= tolerance, which.max(initial=0) + 1)[which] > 0
+    for kind, here in (("side", ~(half & alike)), ("centre", half & alike)):
+        yield from told(kind, np.where(here, a, 0), np.where(here, b, 0), "", lambda value: SIDES[int(value)])
 
 
 def _named(before: str, behind: str = "") -> Callable[[Any], str]:

@@ -8,10 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.path.toolpath import Array, Index
+from mnclab.path.toolpath import Array, Index, Toolpath
 
 RATE = 0.005  # of a feed, a speed or a dwell: as much goes by rounding in inches
-LOOK = 64  # rows
+CENTRE = 20  # as far apart may be the centres of arcs, in tolerances of their ends
+NONE = "none before this block"
 
 
 class Found(NamedTuple):
@@ -55,13 +56,24 @@ def grouped(
 
 
 def from_where(one: Motion, other: Motion, rows: tuple[int, int], tolerance: float) -> tuple[int, int]:
-    """The rows from which on moves are not the same that are made of several blocks, which may be alike at first."""
+    """The rows from which on two moves are not the same that are made of several blocks, which may be alike at first."""
+    looks = [motion.last[np.searchsorted(motion.row, row, "right") - 1] - row + 1 for motion, row in zip((one, other), rows)]
+    return first_apart((one.path, other.path), rows, tolerance, int(max(looks)))
+
+
+def first_apart(
+    paths: tuple[Toolpath, Toolpath], rows: tuple[int, int], tolerance: float, look: int, sides: bool = False
+) -> tuple[int, int]:
+    """The first two of so many rows of two paths that are not the same, with their `sides` if asked, else the first of all."""
     found = []
-    for motion, row in zip((one, other), rows):
-        path = motion.path[row : row + LOOK]
-        found.append(row + np.flatnonzero(path.is_motion & (path.lengths > NO_WAY)))
+    for path, row in zip(paths, rows):
+        some = path[row : row + look]
+        found.append(row + np.flatnonzero(some.is_motion & (some.lengths > NO_WAY)))
     many = min(map(len, found))
     a, b = (each[:many] for each in found)
-    odd = np.linalg.norm(one.path.end[a] - other.path.end[b], axis=1) > tolerance
-    odd |= (one.path.kind[a] != other.path.kind[b]) | (np.sign(one.path.sweep[a]) != np.sign(other.path.sweep[b]))
+    one, other = paths
+    odd = np.linalg.norm(one.end[a] - other.end[b], axis=1) > tolerance
+    odd |= (one.kind[a] != other.kind[b]) | (np.sign(one.sweep[a]) != np.sign(other.sweep[b]))
+    odd |= sides & (one.side[a] != other.side[b])
+    odd |= np.linalg.norm(np.nan_to_num(one.centre[a] - other.centre[b]), axis=1) > CENTRE * tolerance
     return (int(a[odd.argmax()]), int(b[odd.argmax()])) if odd.any() else rows

@@ -24,6 +24,7 @@ KEPT = (
     "kind", "start", "end", "centre", "axis", "sweep", "rotary", "feed", "per_rev", "surface", "spindle", "radius", "side",
     "synchronous",
 )  # fmt: skip
+STARTS = (3, 4, 13, 14)  # M functions that start the spindle
 MODAL = ("dimension", "plane", "datum")
 OF_MACHINE = ("frame datum", "frame preset", "frame secondary", "frame length")
 OFF = ("M9", None)  # what stands in the history while there is no coolant
@@ -35,11 +36,13 @@ class Motion:
 
     `dwell` (m + 1,) is the time before the first move and behind each, s, inf where the program stops (M0), `pause` the row of
     it. `tool` (m,) are places in one list of tools, of which what cuts alike is one. `cuts` are the moves but rapids, `link` (m,)
-    says before which of the cuts a move stands. `at_end` is speed, coolant, side as the program leaves them, `left` what
-    else of it is modal, in words.
+    says before which of the cuts a move stands. `held` are the first cuts with a tool for which the spindle was not started: it
+    turned before the change. `contour` is the path as it was programmed, before compensation. `at_end` is speed, coolant, side
+    as the program leaves them, `left` what else of it is modal, in words.
     """
 
     path: Toolpath
+    contour: Toolpath
     row: Index
     last: Index
     kind: Array
@@ -58,6 +61,7 @@ class Motion:
     tool: Array
     side: Array
     synchronous: Mask
+    held: Mask
     dwell: Array
     pause: Index
     cuts: Index
@@ -83,8 +87,8 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     """The moves of a run; its tools are found in `tools`, a list for all runs that are compared, or added."""
     path: Toolpath = run.toolpath
     n = len(path)
-    tips = _true_tips(path)
-    coolant, tool = _coolant(run), _tools(run, tools)
+    tips = _true_tips(path) + np.where(path.kind == Kind.RAPID, 0.0, run.tip_lift)
+    beside = {"coolant": _coolant(run), "tool": _tools(run, tools), "held": _held(run)}
     travel = np.abs(path.end - path.start).max(axis=1) if n else np.empty(0)
     turned = np.zeros(n, dtype=bool)
     if path.rotary.strides[0] if n else False:
@@ -94,7 +98,7 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     event = np.isin(path.kind, (Kind.DWELL, Kind.TOOL, Kind.STOP))
     lift = tips[rows, None] * np.array([0.0, 0.0, 1.0]) if tips.any() else 0.0
     columns: dict[str, Any] = {name: gathered(getattr(path, name), rows) for name in KEPT}
-    columns |= {"coolant": gathered(coolant, rows), "tool": gathered(tool, rows)}
+    columns |= {name: gathered(each, rows) for name, each in beside.items()}
     if tips.any():
         columns |= {name: columns[name] + lift for name in ("start", "end", "centre")}
     goes_on = _goes_on(columns, np.cumsum(event)[rows])
@@ -110,10 +114,10 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     np.add.at(dwell, behind, np.where(path.kind[events] == Kind.STOP, np.inf, np.nan_to_num(path.time[events])))
     pause[behind] = events
     cuts = np.flatnonzero(columns["kind"] != Kind.RAPID)
-    at_end = (float(path.spindle[-1]), int(coolant[-1]), int(path.side[-1])) if n else (0.0, 0, 0)
+    at_end = (float(path.spindle[-1]), int(beside["coolant"][-1]), int(path.side[-1])) if n else (0.0, 0, 0)
     link = np.searchsorted(cuts, np.arange(len(first)))
-    beside: dict[str, Any] = {"dwell": dwell, "pause": pause, "cuts": cuts, "link": link}
-    return Motion(path, rows[first], rows[last], **columns, **beside, at_end=at_end, left=_left(run))
+    columns |= {"dwell": dwell, "pause": pause, "cuts": cuts, "link": link}
+    return Motion(path, run.programmed, rows[first], rows[last], **columns, at_end=at_end, left=_left(run))
 
 
 def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:
@@ -185,6 +189,29 @@ def _tools(run: Any, tools: list[Any]) -> Index:
             tools.append(shape)
         places.append(tools.index(shape))
     return np.array(places, dtype=np.int64)[which] if len(used) else np.zeros(len(numbers), dtype=np.int64)
+
+
+def _held(run: Any) -> Mask:
+    """The first cut (n,) with each tool, where the spindle turned before it came and was not started behind the change."""
+    path = run.toolpath
+    found = np.zeros(len(path), dtype=bool)
+    turned = np.append(0.0, path.spindle[:-1])
+    changes = np.flatnonzero((path.kind == Kind.TOOL) & (turned != 0) & (path.spindle != 0))
+    if not len(changes):
+        return found
+    starts = np.zeros(len(run.steps.block), dtype=bool)  # by steps
+    for k, program in enumerate(run.programs):
+        if "M" in program.addresses:
+            words = (program.address == program.addresses.index("M")) & np.isin(program.value, STARTS)
+            blocks = np.repeat(np.arange(len(program)), np.diff(program.first))[words]
+            starts |= (run.steps.program == k) & np.isin(run.steps.block, blocks)
+    cutting = np.flatnonzero(path.is_motion & (path.kind != Kind.RAPID))
+    for row, until in zip(changes.tolist(), np.append(changes[1:], len(path)).tolist()):
+        first = int(np.searchsorted(cutting, row))
+        if first < len(cutting) and (cut := int(cutting[first])) < until:
+            again = starts[path.step[row] : path.step[cut] + 1].any() or (path.kind[row:cut] == Kind.SPINDLE).any()
+            found[cut] = not again
+    return found
 
 
 def _true_tips(path: Toolpath) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import dist
 from typing import Any, cast
 
 import numpy as np
@@ -146,3 +147,70 @@ def _ahead(alike: Callable[[Index, Index], Mask], n: int, m: int, i: int, j: int
         if window >= n and window >= m:
             break
     return n, m
+
+
+# Cuts that are not the same, and still each other's.
+
+LONE, STRANGE = 0.55, 1.0  # what a cut of one program alone costs, and two that have nothing of each other
+LIKE = (0.0, 0.1, 0.2, 0.25, 0.3)  # an arc of the same circle; the same end; the same from above, way and end, or one of them
+LARGEST = 4_000_000  # pairs
+
+
+def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> tuple[Index, Index]:
+    """Which of the cuts by their ranks i (n,) of one and j (m,) of the other are each other's, as places in i and j (k,).
+
+    Of all ways to put the two in order beside each other that which costs least; of very many cuts one after the other.
+    """
+    n, m = len(i), len(j)
+    if n == 0 or m == 0 or n * m > LARGEST:
+        return np.arange(min(n, m)), np.arange(min(n, m))
+    p, q = one.cuts[i], other.cuts[j]
+    step = np.abs(one.end[p][:, None] - other.end[q]) <= tolerance
+    way = np.abs((one.end[p] - one.start[p])[:, None] - (other.end[q] - other.start[q])) <= tolerance
+    seen = slice(None) if one.path.lathe else slice(2)  # from above
+    flat, same = step[:, :, seen].all(axis=2), way[:, :, seen].all(axis=2)
+    kind, sense = (a[:, None] != b for a, b in ((one.kind[p], other.kind[q]), (np.sign(one.sweep[p]), np.sign(other.sweep[q]))))
+    about = ~sense & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
+    cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + LIKE[2] * kind + LIKE[1] / 2 * sense
+    lone = LONE * np.arange(m, -1, -1)
+    least = np.empty((n + 1, m + 1))  # from each two cuts on
+    least[n] = lone
+    for k in range(n - 1, -1, -1):
+        here = np.minimum(np.append(least[k + 1, 1:] + cost[k], np.inf), least[k + 1] + LONE)
+        least[k] = np.minimum.accumulate((here - lone)[::-1])[::-1] + lone
+    pairs, k, at = [], 0, 0
+    while k < n and at < m:
+        if least[k, at] >= least[k + 1, at + 1] + cost[k, at] - 1e-9:
+            pairs.append((k, at))
+            k, at = k + 1, at + 1
+        elif least[k, at] >= least[k + 1, at] + LONE - 1e-9:
+            k += 1
+        else:
+            at += 1
+    found = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    return found[:, 0], found[:, 1]
+
+
+MARK = np.int64(1_000_003)
+
+
+def same_places(one: Array, other: Array, tolerance: float, parts: tuple[slice, ...]) -> Index:
+    """Which rows (k, 2) of two tables of numbers are the same, each but once, whatever their order: in each of the parts of a row
+    they are no farther apart than the tolerance."""
+    both = np.concatenate([one, other])
+    order = np.argsort(both, axis=0, kind="stable")
+    keys = np.zeros(both.shape, dtype=np.int64)  # numbers with no gap between them have one key
+    np.put_along_axis(keys, order[1:], np.cumsum(np.diff(np.take_along_axis(both, order, 0), axis=0) > tolerance, axis=0), 0)
+    marks = np.split(keys @ MARK ** np.arange(1, both.shape[1] + 1), [len(one)])  # of equal keys alike, of hardly any others
+    here, there = (np.flatnonzero(np.isin(a, b)) for a, b in (marks, marks[::-1]))
+    known: dict[tuple[int, ...], list[int]] = {}
+    for rank, key in zip(there.tolist(), keys[len(one) + there].tolist()):
+        known.setdefault(tuple(key), []).append(rank)
+    met = []
+    for k, key in zip(here.tolist(), keys[here].tolist()):
+        near = known.get(tuple(key), [])
+        fit = next((rank for rank in near if all(dist(one[k, part], other[rank, part]) <= tolerance for part in parts)), None)
+        if fit is not None:
+            near.remove(fit)
+            met.append((k, fit))
+    return np.array(met, dtype=np.int64).reshape(-1, 2)

@@ -9,12 +9,14 @@ import numpy as np
 from mnclab.comparison.diff import strokes_of
 from mnclab.comparison.found import Found
 from mnclab.comparison.motion import Motion
+from mnclab.comparison.ways import Around
 from mnclab.geometry.curves import at_angle, counted
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind, Mask
-from mnclab.workpiece.blank import Box
+from mnclab.workpiece.blank import Box, blank
+from mnclab.workpiece.part.part import Part
 
-GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "rapid")
+GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "aside", "nearer", "rapid")
 PLACES = 20_000  # of each path: beside so many the walls are looked at; of more nothing is proven
 CLOSE, ABOUT = 4, 64  # places a tool radius along a cut, and about each of its ends
 BESIDE = 1.3  # of the tolerance
@@ -28,16 +30,40 @@ ROUND = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (0.7, 0.7), (-0.7, 0
 def not_comparable(runs: tuple[Any, Any], motions: tuple[Motion, Motion]) -> str:
     """Why the parts of two runs are not compared, in words; empty if they can be."""
     stocks = [run.stock for run in runs]
-    if None in stocks:
-        return "there is no blank in either" if stocks == [None, None] else "only one of them has a blank"
+    if stocks == [None, None]:
+        return "there is no blank in either"
     if max(len(motion.cuts) for motion in motions) > MOST:
         return f"there are more than {MOST:,} cuts"
+    if None in stocks:
+        return ""
     if any(isinstance(stock, Box) for stock in stocks) and np.abs(stocks[0].bounds - stocks[1].bounds).max() > 1e-6:
         return "they have two blanks"
     return ""
 
 
-def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float, found: list[Found]) -> str:
+def one_blank(runs: tuple[Any, Any]) -> Any:
+    """The blank of the only one of two runs that has one, in the frame of the path; None if both have."""
+    one, other = (run.stock for run in runs)
+    return None if (one is None) == (other is None) else one or other
+
+
+def _placed(run: Any, stock: Any) -> Any:
+    """The blank in machine coordinates where a run has none of its own."""
+    return None if run.stock or stock is None else stock.moved(run.toolpath.origin)
+
+
+def around(runs: tuple[Any, Any], stock: Any) -> Around:
+    """What stands on the machine about the tool: the blank, which may be that of one for both, and fixtures."""
+    run = runs[not runs[0].setup.fixtures and bool(runs[1].setup.fixtures)]
+    origin, lathe = run.toolpath.origin, run.toolpath.lathe
+    held = [each if isinstance(each, Part) else blank(each) for each in run.setup.fixtures]
+    bodies = {"the blank": run.stock or stock}
+    bodies |= {f"fixture {k}" if len(held) > 1 else "the fixture": each for k, each in enumerate(held, 1)}
+    bounds = {name: body.bounds - (0.0 if name == "the blank" else origin) for name, body in bodies.items() if body is not None}
+    return Around(tuple(bounds), np.array([*bounds.values()]).reshape(-1, 2, 3), bool(held), lathe)
+
+
+def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance: float, found: list[Found], stock: Any) -> str:
     """Where the parts of two runs differ by more than the tolerance, in words; empty if they do not.
 
     Cuts that are the same take the same away, so what is looked at is beside those that are not, and in a grid all over. A place
@@ -45,7 +71,7 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
     """
     if not any(each.kind in (*GEOMETRIC, "tool") for each in found):
         return ""
-    parts = [run.workpiece() for run in runs]
+    parts = [run.workpiece(stock=_placed(run, stock)) for run in runs]
     if (error := max(part.error for part in parts)) > tolerance:
         return f"the parts are known to {error:g} mm alone"
     sections = [part.half_section() for part in parts]
@@ -133,9 +159,9 @@ def _all_over(bounds: Array) -> Array:
     return np.stack([each.ravel() for each in grid], axis=1)
 
 
-def collided(runs: tuple[Any, Any]) -> list[Found]:
+def collided(runs: tuple[Any, Any], stock: Any) -> list[Found]:
     """Collisions of a kind that only one of two runs has."""
-    both = [run.collisions() for run in runs]
+    both = [run.collisions(_placed(run, stock)) for run in runs]
     found = []
     for kind in dict.fromkeys(each.kind for each in (*both[0], *both[1])):
         first = [next((each for each in one if each.kind == kind), None) for one in both]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,10 +18,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.comparison.diff import names_of
-from mnclab.comparison.differences import differences
-from mnclab.comparison.found import Found
+from mnclab.comparison.differences import differences, in_order
+from mnclab.comparison.found import NONE, Found
 from mnclab.comparison.motion import motion_of
-from mnclab.comparison.parts import collided, not_comparable, part_apart
+from mnclab.comparison.parts import around, collided, not_comparable, one_blank, part_apart
+from mnclab.comparison.ways import Around
+from mnclab.path.corners import Corner
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
 from mnclab.text.alarm import ALARM, Alarm
@@ -32,7 +34,9 @@ from mnclab.text.tables import Listing, Pictured, html_table, save_as, text_tabl
 KINDS = {
     "stops": "a program stops before its end, so that nothing is proven",
     "collision": "only one of them collides",
-    "rapid": "the second goes lower or nearer at rapid, or on a lathe elsewhere",
+    "rapid": "the second goes lower at rapid",
+    "nearer": "the second comes nearer at rapid than the first ever does",
+    "aside": "the second goes elsewhere at rapid, no higher: something may stand there (fixtures of the setup tell)",
     "geometry": "other cuts",
     "depth": "the same cuts at another depth",
     "side": "radius compensation on another side",
@@ -43,14 +47,16 @@ KINDS = {
     "coolant": "another coolant",
     "order": "the same cuts in another order",
     "chords": "lines within the tolerance of an arc",
-    "lifts": "other ways between cuts, also sideways, nowhere lower",
+    "lifts": "another way between cuts, nowhere lower or nearer",
     "leftovers": "something else is on at the end",
+    "restart": "the spindle is started again behind a tool change, or held through it: not every machine holds it",
+    "centre": "one says the way of the tool's centre, the other compensates its radius: the same with this tool alone",
     "number": "another tool number, of a tool with the same measures",
 }
 MAY_BE_ALLOWED = ("lifts", "chords", "order")
-BESIDE = ("leftovers", "number")  # told, but no motion
+BESIDE = ("leftovers", "restart", "centre", "number")  # told, but no motion
 #: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
-UNSAFE = ("stops", "collision", "rapid", "side", "spindle", "feed")
+UNSAFE = ("stops", "collision", "rapid", "nearer", "side", "spindle", "feed")
 SAME_MOTION, SAME_PART, DIFFERENT = "same motion", "same part", "different"
 
 
@@ -102,8 +108,9 @@ class Difference(NamedTuple):
 class Proof(Pictured, Listing):
     """What `mnclab.prove` found: `verdict` is "same motion", "same part" or "different"; a table of the differences.
 
-    `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared. Its
-    truth is whether the motion is not the same, as that of `mnclab.diff`: `if mnclab.prove(a, b): print("look")`.
+    `paths` and `names` are those of the two programs, `part` says why their parts are not the same or were not compared, `blank`
+    whose blank was taken where only one has any. Its truth is whether the motion is not the same, as that of `mnclab.diff`:
+    `if mnclab.prove(a, b): print("look")`.
     """
 
     NUMBERS, CODE, MOST = (1, 3), (2, 4), 30
@@ -114,6 +121,7 @@ class Proof(Pictured, Listing):
     tolerance: float
     paths: tuple[Any, Any]
     part: str = ""
+    blank: str = ""
 
     def __bool__(self) -> bool:
         """Whether the motion is not the same."""
@@ -121,6 +129,11 @@ class Proof(Pictured, Listing):
 
     def __len__(self) -> int:
         return len(self.differences)
+
+    @property
+    def harmless(self) -> bool:
+        """Whether the motion is the same, or the part is and no more differs than what may be allowed."""
+        return self.verdict == SAME_MOTION or (self.verdict == SAME_PART and {*self.counts} <= {*MAY_BE_ALLOWED, *BESIDE})
 
     @property
     def first(self) -> Difference | None:
@@ -137,6 +150,13 @@ class Proof(Pictured, Listing):
         return f"places count from the first zero point of each, in machine coordinates {point(one)} and {point(other)}"
 
     @property
+    def scale(self) -> str:
+        """A unit that was mistaken, in words; empty where none was."""
+        one, other = (float(path.lengths[path.kind != Kind.RAPID].sum()) for path in self.paths)
+        small, large = sorted((one, other))
+        return "all is 25.4 times as large in one of them: inches for mm" if 0 < 24.5 * small < large < 26.3 * small else ""
+
+    @property
     def counts(self) -> dict[str, int]:
         """How many differences of each kind there are, the worst kind first."""
         many = Counter(each.kind for each in self.differences)
@@ -150,14 +170,15 @@ class Proof(Pictured, Listing):
             return "not proven: there is no motion in either"
         if self.verdict == SAME_MOTION:
             more = f"beside it: {counts}" if counts else ""
-            left = "".join(each.sentence for each in self.differences if each.kind in BESIDE)
-            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.zeros]))
+            left = "; ".join(each.sentence for each in self.differences if each.kind in BESIDE)
+            return "; ".join(filter(None, [f"the same motion within {self.tolerance:g} mm", more, left, self.blank, self.zeros]))
         assert self.first is not None
         if "stops" in self.counts:
             verdict = "not proven"
         else:
             verdict = "the same part, made another way" if self.verdict == SAME_PART else "different"
-        return "; ".join(filter(None, [f"{verdict} ({counts})", self.part, f"first {self.first.sentence}", self.zeros]))
+        reasons = f"{verdict} ({counts})", self.scale, self.part, self.blank, f"first {self.first.sentence}", self.zeros
+        return "; ".join(filter(None, reasons))
 
     @property
     def above(self) -> str:
@@ -188,7 +209,7 @@ class Proof(Pictured, Listing):
 
     def as_dict(self) -> dict[str, Any]:
         """All of it for JSON."""
-        found = {name: getattr(self, name) for name in ("verdict", "sentence", "names", "tolerance", "counts", "part")}
+        found = {name: getattr(self, name) for name in ("verdict", "sentence", "names", "tolerance", "counts", "part", "blank")}
         return found | {"differences": [each.as_dict() for each in self.differences]}
 
     def plot(self, **options: Any) -> Any:
@@ -239,32 +260,61 @@ def proof(one: Any, other: Any, tolerance: float = 0.001, allow: Collection[str]
     allowed = tuple(choice(each, "what is allowed", MAY_BE_ALLOWED) for each in allow)
     runs, tools = (one, other), list[Any]()
     motions = motion_of(one, tools), motion_of(other, tools)
-    found = differences(*motions, tolerance)
-    part = ""
+    stock = one_blank(runs)
+    found = differences(*motions, tolerance, around(runs, stock))
+    names, part, shared = names_of(one, other), "", ""
+    told: tuple[Difference, ...] = ()
     if any(map(_broken, runs)):
         found = _stopped(runs, found)
+        told, runs = _contours(runs, found, names, allowed, tolerance) or (told, runs)
+    elif found and (why := not_comparable(runs, motions)):
+        part = f"the parts were not compared: {why}" if {each.kind for each in found} - {*allowed, *BESIDE} else ""
     elif found:
-        why = not_comparable(runs, motions)
-        found = found if why else sorted([*found, *collided(runs)], key=lambda each: each.rows[1])
-        serious = {each.kind for each in found} - {*allowed, *BESIDE}
-        part = f"the parts were not compared: {why}" * bool(serious) if why else part_apart(runs, motions, tolerance, found)
+        found = in_order([*found, *collided(runs, stock)], *motions)
+        part = part_apart(runs, motions, tolerance, found, stock)
+        shared = f"the blank of {names[one.stock is None]} was taken for both" if stock else ""
     serious = {each.kind for each in found} - {*allowed, *BESIDE}
     still = not any(motion.path.is_motion.any() for motion in motions)  # which proves nothing
     verdict = DIFFERENT if part or still or serious & {*UNSAFE} else SAME_PART if serious else SAME_MOTION
-    names = names_of(one, other)
-    told = tuple(_told(each, runs, names, allowed) for each in found)
-    return Proof(verdict, told, names, float(tolerance), (one.toolpath, other.toolpath), part)
+    told = told or tuple(_told(each, runs, names, allowed) for each in found)
+    return Proof(verdict, told, names, float(tolerance), (runs[0].toolpath, runs[1].toolpath), part, shared)
+
+
+def _contours(
+    runs: tuple[Any, Any], found: list[Found], names: tuple[str, str], allowed: Collection[str], tolerance: float
+) -> tuple[tuple[Difference, ...], tuple[Any, Any]] | None:
+    """Where compensation stops a program what differs in the contours, and both runs with tools of no radius, which have them."""
+    if any(each.kind == "geometry" for each in found) or not any(run.programmed.side.any() for run in runs):
+        return None
+    thin = [{number: replace(tool, radius=0.0) for number, tool in (run.setup.tools or {}).items()} for run in runs]
+    bare = tuple(run.again(replace(run.setup, tools=tools)) for run, tools in zip(runs, thin))
+    if any(map(_broken, bare)):
+        return None
+    of_tools = list[Any]()
+    one, other = (motion_of(run, of_tools) for run in bare)
+    why = [each for each in differences(one, other, tolerance, Around()) if each.kind in ("geometry", "depth")]
+    if not why:
+        return None
+    rows = [
+        int(np.searchsorted(thin.toolpath.step, run.toolpath.step[row])) if row >= 0 else row
+        for thin, run, row in zip(bare, runs, found[-1].rows)
+    ]
+    stops = _told(found[-1], runs, names, allowed)._replace(rows=(rows[0], rows[1]))
+    return (*(_told(each, (bare[0], bare[1]), names, allowed) for each in why), stops), (bare[0], bare[1])
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     """Where the programs stop, and what differs before."""
     last = [len(run.toolpath) - 1 for run in runs]
     ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(last, runs))
-    rows = tuple(row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1]))
-    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1] and "none" not in each.values]
-    known = [each for each in known if each.rows[0] < rows[0] and each.rows[1] < rows[1]]
+    rows = [row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1])]
+    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1]]
+    for k, run in enumerate(runs):  # where the other one goes on, as far as that is known
+        more = [each.rows[k] for each in found if each.values[1 - k] == NONE and not _broken(run)]
+        rows[k] = min(more, default=rows[k])
+    known = [each for each in known if NONE not in each.values]
     said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
-    return [*(each for each in known if each.kind != "leftovers"), Found("stops", rows, float("nan"), "", said)]  # type: ignore[arg-type]
+    return [*(each for each in known if each.kind != "leftovers"), Found("stops", (rows[0], rows[1]), float("nan"), "", said)]  # type: ignore[arg-type]
 
 
 def _beside(run: Any, other: Any) -> int:
@@ -302,12 +352,17 @@ def _spot(run: Any, row: int, halt: Any, name: str) -> tuple[int, str, str, tupl
     path = run.toolpath
     line, which = (halt.line, halt.program) if halt else (int(path.line[row]), int(path.program[row]))
     place = tuple(path.end[row].tolist()) if row >= 0 else ()
-    program, doing = run.programs[which], "" if halt else _doing(path[row], path.lathe)
+    program, move = run.programs[which], None if halt else path[row]
+    if move is not None and move.side:  # what the block says, not the way of the centre that follows from it
+        same = np.flatnonzero((run.programmed.step == move.step) & run.programmed.is_motion)
+        move = run.programmed[same[-1]] if len(same) else move
+    doing = "" if move is None else _doing(move, path.lathe)
     return line, program.name if which else name, program.line_text(line).strip(), place, doing
 
 
 def _doing(move: Any, lathe: bool) -> str:
     """What a row does, in words."""
     said = words(move).replace(point(move.end), point(move.end, lathe=lathe))
-    side = {1: ", left of the contour", -1: ", right of the contour"}.get(move.side, "") if move.kind != Kind.RAPID else ""
-    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}".strip()
+    side = {1: ", tool left of it", -1: ", tool right of it"}.get(move.side, "") if move.kind != Kind.RAPID else ""
+    joint = f", then {move.joint}" if isinstance(move.joint, Corner) else ""
+    return f"{Kind(move.kind).name.lower()} {'to ' if move.kind <= Kind.PROBE else ''}{said}{side}{joint}".strip()

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from typing import Any
+
 import numpy as np
 
 from mnclab.comparison.found import RATE, Found, from_where
 from mnclab.comparison.motion import Motion
-from mnclab.path.listing import figure
+from mnclab.path.listing import figure, point
 from mnclab.path.toolpath import Array, Index, Kind, Mask
-from mnclab.text.alarm import several
 
 SECONDS = 0.001
+LOWER, NEARER, ASIDE, HIGHER = range(4)
+OF_WAYS = ("rapid", "nearer", "aside", "lifts")  # their kinds
+MOST = 2000  # ways that are looked at one by one
+PLACES = 200_000  # of all rapids
+SHARES = np.linspace(0.0, 1.0, 33)[:, None, None]  # of a rapid: where it is looked at
+
 
 def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> tuple[Index, Index]:
     """Which ways between cuts (k,), by the rank of the cut behind them, are each other's: both their ends are."""
@@ -18,23 +26,29 @@ def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int,
     stretch = np.array(parts, dtype=np.int64).reshape(-1, 4)
     before = np.concatenate([i * wide + j, stretch[:, 0] * wide + stretch[:, 2], [len(one.cuts) * wide + len(other.cuts)]])
     behind = np.concatenate([[0], (i + 1) * wide + j + 1, stretch[:, 1] * wide + stretch[:, 3]])
-    both = np.intersect1d(before, behind)
+    both = np.sort(np.concatenate([_each_once(before), _each_once(behind)]))
+    both = both[1:][both[1:] == both[:-1]]
     return both // wide, both % wide
 
 
-def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -> list[Found]:
-    """Rapids between cuts that do not go the same way: lower than those of the first program, or not."""
-    sides = [Ways(one, tolerance), Ways(other, tolerance)]
-    many = [side.count[k] for side, k in zip(sides, (i, j))]
+def _each_once(numbers: Index) -> Index:
+    """Numbers in their order; of many integers it is quicker than that of numpy."""
+    found = np.sort(numbers)
+    return found[np.append(True, found[1:] != found[:-1])]
+
+
+def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, around: Around) -> list[Found]:
+    """Rapids between cuts that do not go the same way: lower than those of the first program, elsewhere, or not."""
+    a, b = Ways(one, tolerance), Ways(other, tolerance)
+    many = a.count[i], b.count[j]
     odd = many[0] != many[1]
     at = np.flatnonzero(~odd & (many[0] > 0))
     if len(at):
         which = np.repeat(at, many[0][at])
         rank = np.arange(len(which)) - np.repeat(np.cumsum(many[0][at]) - many[0][at], many[0][at])
-        ends = [m.end[s.rapids[s.begin[k[which]] + rank]] for m, s, k in ((one, sides[0], i), (other, sides[1], j))]
+        ends = [side.motion.end[side.rapids[side.begin[k[which]] + rank]] for side, k in ((a, i), (b, j))]
         off = np.linalg.norm(ends[0] - ends[1], axis=1)
         odd[which[off > tolerance]] = True
-    a, b = sides
     found = _beyond(a, b, i, j, tolerance)
     i, j = i[odd], j[odd]
     if not len(i):
@@ -46,17 +60,68 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float) -
     down[deep[b.in_own_hole(j[deep], tolerance)]] = 0.0
     lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), down)
     beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
-    near = (lower > tolerance) | ((beside > tolerance) & (b.low[j] < a.high[i] - tolerance)) | one.path.lathe | other.path.lathe
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
-    new = (np.diff(i) != 1) | (np.diff(j) != 1) | (near[1:] != near[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
+    kind = np.where((lower > tolerance) & (not a.lathe), LOWER, HIGHER)
+    told: dict[int, list[Any]] = {}
+    bent = (beside > tolerance) | (a.turns[i] > 1) | (b.turns[j] > 1)
+    goes = (kind == HIGHER) & (a.lathe | ((j > 0) & np.isfinite(b.low[j]) & bent))
+    least = a.least(around) if goes.any() else np.empty(0)
+    for k in np.flatnonzero(goes)[:MOST].tolist():
+        kind[k], *told[k] = _elsewhere(a, int(i[k]), b, int(j[k]), tolerance, around, least)
+    kind[np.flatnonzero(goes)[MOST:]] = ASIDE
+    new = (np.diff(i) != 1) | (np.diff(j) != 1) | (kind[1:] != kind[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
     first = np.flatnonzero(np.append(True, new))
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
-        amount = float(lower[k] if near[k] and lower[k] > 0 else off[k])
-        said = a.said(i[k]), b.said(j[k])
+        amount, said = float(lower[k] if kind[k] == LOWER and lower[k] > 0 else off[k]), (a.said(i[k]), b.said(j[k]))
+        amount, said = told[k] if k in told and kind[k] != HIGHER else (amount, said)
         until = a.until(i[k], b, j[k], tolerance)
+        if kind[k] == ASIDE or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
+            said = a.route(i[k], until), b.route(j[k], until)
         rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
-        found.append(Found("rapid" if near[k] else "lifts", rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
+        found.append(Found(OF_WAYS[kind[k]], rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
     return found
+
+
+def _elsewhere(
+    a: Ways, i: int, b: Ways, j: int, tolerance: float, around: Around, least: Array
+) -> tuple[int, float, tuple[str, ...]]:  # fmt: skip
+    """What the way before cut j of b is beside that before cut i of a, by how much, and in words where it comes nearer.
+
+    What stands on the machine is known of what the setup names alone. Where that is nothing, b must be higher than a was. `least`
+    is how near any rapid of a comes to it.
+    """
+    places, aside = b.off(j, a, i, tolerance)
+    if not len(places):
+        return HIGHER, 0.0, ("", "")
+    far = around.far(places, b.radius(j))
+    if (near := np.flatnonzero(far < least - tolerance)).size:
+        body = int(near[(least - far)[near].argmax()])
+        said = (f"{figure(float(each[body]), 3)} mm from {around.names[body]}" for each in (least, far))
+        return NEARER, float((least - far)[body]), tuple(said)
+    if around.fixtures or (not a.lathe and places[:, 2].min() > a.over(i) + tolerance):
+        return HIGHER, aside, ("", "")
+    return ASIDE, aside, ("", "")
+
+
+@dataclass(frozen=True, eq=False)
+class Around:
+    """What stands on the machine beside the tool, by its `names`: the `bounds` (k, 2, 3) of blank and fixtures in the frame of
+    the path. `fixtures` is whether the setup names any: without, nobody knows of clamps."""
+
+    names: tuple[str, ...] = ()
+    bounds: Array = field(default_factory=lambda: np.empty((0, 2, 3)))
+    fixtures: bool = False
+    lathe: bool = False
+
+    def far(self, places: Array, radius: Array | float) -> Array:
+        """How far (k,) a tool whose tip is at places (m, 3) is from each of them, at the nearest."""
+        low, high = self.bounds[:, None, 0], self.bounds[:, None, 1]
+        out = np.maximum(np.maximum(low - places, places - high), 0.0)  # (k, m, 3)
+        if self.lathe:
+            wide = np.abs(self.bounds[:, :, :2]).max(axis=(1, 2))
+            return np.hypot(np.maximum(np.abs(places[:, 0]) - wide[:, None], 0.0), out[:, :, 2]).min(axis=1, initial=np.inf)
+        beside = np.maximum(np.hypot(out[:, :, 0], out[:, :, 1]) - np.abs(radius), 0.0)
+        return np.hypot(beside, np.maximum(places[:, 2] - high[:, :, 2], 0.0)).min(axis=1, initial=np.inf)
 
 
 def _gap(a: Array, b: Array) -> Array:
@@ -85,7 +150,7 @@ class Ways:
     (`low`), the highest of all (`high`) and the `last`, and the `box` (n + 1, 4) that they keep in X and Y."""
 
     def __init__(self, motion: Motion, tolerance: float) -> None:
-        self.motion = motion
+        self.motion, self.lathe = motion, motion.path.lathe
         self.rapids = np.flatnonzero(motion.kind == Kind.RAPID)
         link, n = motion.link[self.rapids], len(motion.cuts) + 1
         self.count = np.bincount(link, minlength=n)
@@ -95,6 +160,7 @@ class Ways:
             start[0] = end[0]
         self.aside = aside = np.hypot(*(end - start)[:, :2].T) > tolerance
         self.heights = np.minimum(start[:, 2], end[:, 2])
+        self.start, self.turns = start, np.bincount(link[aside], minlength=n)
         self.low, self.high = np.full(n, np.inf), np.full(n, -np.inf)
         np.minimum.at(self.low, link[aside], self.heights[aside])
         np.maximum.at(self.high, link, np.maximum(start[:, 2], end[:, 2]))
@@ -123,6 +189,40 @@ class Ways:
             found[k] = bool((cuts[here, 2] <= ends[k, 2] + tolerance).any())
         return found & (self.count[links] > 0) & ~self.aside[self.begin[links] + np.maximum(self.count[links], 1) - 1]
 
+    def of(self, link: int) -> slice:
+        """The rapids before a cut, by their ranks."""
+        return slice(self.begin[link], self.begin[link] + self.count[link])
+
+    def over(self, link: int) -> float:
+        """The highest at which they go sideways; where they do not, how high they are."""
+        here = self.of(link)
+        return float(self.heights[here][self.aside[here]].max()) if self.turns[link] else float(self.high[link])
+
+    def radius(self, link: int) -> float:
+        """That of the tool."""
+        return float(self.motion.radius[self.rapids[self.begin[link]]])
+
+    def off(self, link: int, other: Ways, there: int, tolerance: float) -> tuple[Array, float]:
+        """Places (m, 3) of the ways sideways before a cut (on a lathe of all) that those before a cut of the other do not go
+        over, and how far they are beside."""
+        here, near = self.of(link), other.of(there)
+        some = np.arange(here.start, here.stop)[self.aside[here] | self.lathe]
+        seen = [0, 2] if self.lathe else [0, 1]
+        places = (self.start[some] + SHARES * (self.motion.end[self.rapids[some]] - self.start[some])).reshape(-1, 3)
+        if not other.count[there]:
+            return places, float("nan")
+        begin, end = other.start[near][:, seen], other.motion.end[other.rapids[near]][:, seen]
+        way, gone = end - begin, places[:, None, seen] - begin
+        share = ((gone * way).sum(axis=2) / np.maximum((way * way).sum(axis=1), 1e-12)).clip(0.0, 1.0)
+        beside = np.linalg.norm(gone - share[:, :, None] * way, axis=2).min(axis=1)
+        return places[beside > tolerance], float(beside.max(initial=0.0))
+
+    def least(self, around: Around) -> Array:
+        """How near (k,) any rapid comes to what stands on the machine."""
+        shares = np.linspace(0.0, 1.0, min(max(PLACES // max(len(self.rapids), 1), 2), len(SHARES)))[:, None, None]
+        places = (self.start + shares * (self.motion.end[self.rapids] - self.start)).reshape(-1, 3)
+        return around.far(places, np.tile(self.motion.radius[self.rapids], len(shares)))
+
     def lowest(self, link: int) -> int:
         """Which of the rapids before a cut goes sideways the lowest, by its rank."""
         here = slice(self.begin[link], self.begin[link] + self.count[link])
@@ -132,10 +232,15 @@ class Ways:
         """What they do, in words."""
         if not self.count[link]:
             return "no rapid"
-        if self.motion.path.lathe:
-            return several(int(self.count[link]), "rapid")
         low, last = float(self.low[link]), float(self.last[link])
         return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
+
+    def route(self, link: int, rank: int) -> str:
+        """Where they go from one of them on."""
+        here = self.of(link)
+        ends = self.motion.end[self.rapids[here]][rank:]
+        said = ", ".join(point(end, lathe=self.lathe) for end in ends[:3]) + ", …" * (len(ends) > 3)
+        return f"by {said}" if said else "straight to the cut"
 
     def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
         """How many of the rapids before a cut are those before another cut of the other."""

@@ -15,7 +15,7 @@ from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import AXES, Datum, Setup, tool_line
 from mnclab.machine.touching import FEELS, PROBES, Contact
-from mnclab.machine.trial import is_text
+from mnclab.machine.trial import is_text, on_its_machine
 from mnclab.machining.steps import (
     Along,
     Blocks,
@@ -153,8 +153,10 @@ def written(step: Write) -> str:
     """What stays, in words; nothing for what the control keeps for itself."""
     value, key = step.value, step.key
     match step.what:
-        case "kept":
+        case "kept" | "reckoned":
             return ""
+        case "kinematics":
+            return f"kinematics: {value}"
         case "memory" | "history":
             return f"{words(key)}: {quoted(value)}" if isinstance(value, int | float | str) and value != "" else ""
         case "modal":
@@ -229,7 +231,8 @@ def steps(code: str, control: str, /, setup: Setup | None = None, **values: Any)
         raise Alarm(f"{shown(code)} is no cycle of {found.control.name}: only a cycle has steps", hint=f"cycles: {known}")
     given = chosen(cycle, values)
     faults = []
-    for machine in situations(found.control, cycle, setup or found.control.trial_setup or Setup()):
+    machine_of_trial = on_its_machine(cycle, setup or found.control.trial_setup or Setup())
+    for machine in situations(found.control, cycle, machine_of_trial):
         rows: list[StepRow] = []
         try:
             definition, start = define(machine, cycle, given), machine.programmed

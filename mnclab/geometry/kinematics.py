@@ -4,8 +4,9 @@ X Y Z are those of the spindle reference, from which the tool reaches its length
 the part is named by where it is while all rotary axes stand at zero. An axis turns right-handed about its direction (ISO 841): a
 head turns the tool by its angle, a table the part by minus its angle, so that the tool goes round the part by the angle itself.
 
-                                    part = T(-1) (P + H (0, 0, -length))
+                                    part = T(-1) (P + H (0, 0, -length)) + shift
     P: X Y Z    H: the turns of the head, about centres that go with P    T(-1): those of the table, from the part's side
+    shift: what a drift moves the part by on its table, or another head the tip
 
 Seen from the part both are one sequence of turns, table axes from the part to the machine, then head axes from the machine to
 the tool. Angles are in degrees in what people call, in rad (…, 3) for A, B, C inside.
@@ -14,7 +15,7 @@ the tool. Angles are in degrees in what people call, in rad (…, 3) for A, B, C
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ Triple = tuple[float, float, float]
 NAMES = "ABC"
 UP = np.array([0.0, 0.0, 1.0])
 FREE = 1e-9  # a direction so near to that of an axis does not say where the axis stands
+SHORT = 1e-15  # by which the length of a direction is off that has the length 1
 WITHIN = 1e-9  # rad, by which a limit may be passed, of numbers alone
 
 
@@ -39,7 +41,8 @@ class Axis:
     """A rotary axis "A", "B" or "C": it turns right-handed about `direction` (3,), by default that of X, Y or Z, through
     `centre` (3,), mm, in machine coordinates with all axes at zero.
 
-    `limits` and `home`, where it stands at the start, in degrees. An Alarm names what cannot be.
+    `limits` and `home`, where it stands at the start, in degrees. `backlash`, degrees, of an axis as it truly is: it stays behind
+    by half of it, on the side from which it came. An Alarm names what cannot be.
 
     >>> mnc.Axis("A", centre=(0, 0, -50), limits=(-30, 120)).limits
     (-30.0, 120.0)
@@ -50,6 +53,7 @@ class Axis:
     direction: Triple | None = None
     limits: tuple[float, float] = (-math.inf, math.inf)
     home: float = 0.0
+    backlash: float = 0.0
 
     __repr__ = written
 
@@ -70,9 +74,11 @@ class Axis:
         if not limits[0] < limits[1]:
             raise Alarm(f"limits of {what} must go up, got {limits[0]:g} to {limits[1]:g}")
         check_number(self.home, f"home of {what}", at_least=limits[0], at_most=limits[1])
+        check_number(self.backlash, f"backlash of {what}", at_least=0, at_most=180)
+        length = length if abs(length - 1) > SHORT else 1.0
         x, y, z = (number / length for number in direction)
         found = {"centre": tuple(map(float, centre)), "direction": (x, y, z), "limits": tuple(map(float, limits))}
-        for name, value in (found | {"home": float(self.home)}).items():
+        for name, value in (found | {"home": float(self.home), "backlash": float(self.backlash)}).items():
             object.__setattr__(self, name, value)
 
     @property
@@ -92,11 +98,11 @@ class Axis:
         return found
 
 
-
 @fitting_class
 @dataclass(frozen=True)
 class Kinematics:
-    """The rotary axes of a machine: `head` from the machine to the tool, `table` from the machine to the part.
+    """The rotary axes of a machine: `head` from the machine to the tool, `table` from the machine to the part; `shift` (3,), mm,
+    by which the tip is elsewhere on the part than they say, in its coordinates.
 
     >>> machine = mnc.Kinematics(table=(mnc.Axis("A", limits=(-30, 120)), mnc.Axis("C")))
     >>> tip, direction = machine.forward([[0, 0, 80, 90, 0, 0]], length=80)
@@ -107,10 +113,15 @@ class Kinematics:
     head: tuple[Axis, ...] = ()
     table: tuple[Axis, ...] = ()
     title: str = ""
+    shift: Triple = (0.0, 0.0, 0.0)
 
     __repr__ = written
 
     def __post_init__(self) -> None:
+        check_point(shift := of_python(self.shift), "shift of a kinematics")
+        for number in shift:
+            check_number(number, "a coordinate of the shift of a kinematics", at_least=-LARGEST, at_most=LARGEST)
+        object.__setattr__(self, "shift", tuple(map(float, shift)))
         for name in ("head", "table"):
             given = getattr(self, name)
             if not isinstance(given, tuple | list) or not all(isinstance(each, Axis) for each in given):
@@ -148,6 +159,12 @@ class Kinematics:
         """An axis by its name; an Alarm where there is none."""
         return next(axis for axis in self.sequence if axis.name == choice(name, "a rotary axis", self.names))
 
+    def with_axis(self, new: Axis) -> Kinematics:
+        """The same with another axis in the place of that of its name; all others stay where they are."""
+        self.axis(new.name)
+        head, table = (tuple(new if axis.name == new.name else axis for axis in side) for side in (self.head, self.table))
+        return replace(self, head=head, table=table)
+
     # --- from the axes to the part -----------------------------------------------------------------------------------
 
     def orientation(self, angles: ArrayLike) -> Array:
@@ -164,18 +181,21 @@ class Kinematics:
         `angles` (…, 3) rad, `length` (…) mm of the tool. With a head it is moved alone, with a table turned about it.
         """
         angles = np.asarray(angles, dtype=np.float64)
-        found = np.broadcast_to(np.eye(4), (*angles.shape[:-1], 4, 4))
+        found = np.broadcast_to(np.eye(4), (*angles.shape[:-1], 4, 4)).copy()
+        found[..., :3, 3] = self.shift
         for axis in reversed(self.table):
             found = found @ axis.turns(angles[..., axis.number])
-        down = np.zeros((*angles.shape[:-1], 4, 1))
-        down[..., 2, 0], down[..., 3, 0] = -np.asarray(length, dtype=np.float64), 1.0
-        moved = np.array(np.broadcast_to(np.eye(4), found.shape))
+        down = np.multiply.outer(np.asarray(length, dtype=np.float64), -UP)
+        swung = np.array(np.broadcast_to(np.eye(4), found.shape))
         if self.head:
-            tip = down
-            for axis in reversed(self.head):
-                tip = axis.turns(angles[..., axis.number]) @ tip
-            moved[..., :3, 3] = (tip - down)[..., :3, 0]
-        return np.asarray(found @ moved)
+            swung[..., :3, 3] = self.swung(down, angles) - down
+        return np.asarray(found @ swung)
+
+    def swung(self, hanging: Array, angles: Array) -> Array:
+        """Where points of the tool (…, 3), counted from the spindle reference, are behind the head at A, B, C (…, 3) rad."""
+        for axis in reversed(self.head):
+            hanging = moved(axis.turns(angles[..., axis.number]), hanging)
+        return hanging
 
     def forward(self, axes: ArrayLike, length: ArrayLike = 0.0) -> tuple[Array, Array]:
         """Where the tip is on the part, and the direction from it along the tool, each (n, 3), mm.

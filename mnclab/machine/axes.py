@@ -5,6 +5,9 @@ Positions of the program are places on the part (`tip`), told as they are with a
 stand elsewhere the linear axes go to the same X Y Z all the same, and the tip is somewhere else on the part: that is a frame
 before all others (`turned`). A tip that is *led* is reckoned with the axes as they stand.
 
+What the control has as its kinematics (`m.tables.kinematics`) a cycle may correct; where the axes truly are stays as the setup
+has it, and a probe that touches the part tells the difference.
+
 Without the kinematics of a machine the tip stays where it is on the part. A move of rotary axes alone is a row without length
 that takes the time of the axis with the longest way; beside a move of the linear axes they arrive with the tip.
 """
@@ -13,17 +16,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.geometry.frames import Matrix
 from mnclab.geometry.kinematics import NAMES, Kinematics, shorter
 from mnclab.machine.coordinates import STILL, Angles, angles, set_angles
 from mnclab.machine.state import Place
+from mnclab.path.cylinder import Cylinder
 from mnclab.path.limits import NOISE, Beyond
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Kind, Toolpath
 from mnclab.text.program import Word
 
 if TYPE_CHECKING:
@@ -31,8 +36,10 @@ if TYPE_CHECKING:
 
 TOLERANCE = 0.01  # mm, how far the tip may be from the rows of a move with rotary axes, if nothing else is said
 MOST = 100_000  # rows of one move
+FIRST, FINE = 8, math.radians(2)  # rows that a move is tried with at first; a turn so small is tried as one
 SAME = 1e-12  # rad
 SQUARE = 2e-4  # rad, by which a tool may lean that stands square to its plane: angles are typed with three decimals
+CHAIN = "kinematics"  # in the history
 
 
 def turning_feed(m: Machine) -> float:
@@ -69,9 +76,8 @@ def tip_below(m: Machine, place: Place) -> Place:
 
 def begin(m: Machine) -> None:
     """A machine with kinematics stands with its spindle reference at the start of the setup, its rotary axes at home."""
-    kinematics = chain(m)
-    x, y, z = kinematics.tips(np.array(m.setup.start, dtype=float), np.array(m.rotary), m.tool.effective_length).tolist()
-    m.tip = x, y, z
+    x, y, z = map(float, m.setup.start)
+    m.tip = tip_below(m, (x, y, z))
     m.recorder.start = np.array(m.tip)
     stand(m)
 
@@ -82,10 +88,15 @@ def chain(m: Machine) -> Kinematics:
     return m.tables.kinematics
 
 
+def orientation(m: Machine) -> Array:
+    """The axes (3, 3), as columns, of the tool on the part; those of the machine without a kinematics."""
+    kinematics = m.tables.kinematics
+    return np.eye(3) if kinematics is None else kinematics.orientation(np.array(m.rotary))
+
+
 def direction(m: Machine) -> Array:
     """The direction (3,) of the tool on the part, from the tip to the spindle; along Z without a kinematics."""
-    kinematics = m.tables.kinematics
-    return np.array([0.0, 0.0, 1.0]) if kinematics is None else kinematics.orientation(np.array(m.rotary))[:, 2]
+    return orientation(m)[:, 2]
 
 
 def leaning(m: Machine) -> float:
@@ -131,6 +142,43 @@ def _turned(m: Machine) -> Array | None:
     return np.asarray(now @ frames.inverse(then))
 
 
+class Truth(NamedTuple):
+    """Where the tool truly is on the part: what leads there (4, 4) from where the control has it, and its axes there (3, 3)."""
+
+    moved: Matrix
+    orientation: Matrix
+
+
+def truth(m: Machine) -> Truth | None:
+    """What is true of where the tool is; None where the control has it so.
+
+    An axis with backlash stays behind by half of it, on the side from which it came last.
+    """
+    believed, true = m.tables.kinematics, m.setup.true_kinematics or m.setup.kinematics
+    if believed is None or true is None or (believed is true and not any(axis.backlash for axis in true.sequence)):
+        return None
+    stands = np.array(m.rotary)
+    for axis in true.sequence:
+        stands[axis.number] -= math.radians(axis.backlash) / 2 * m.arrived[axis.number]
+    length = m.tool.effective_length
+    there = true.carried(stands, length) @ frames.inverse(believed.carried(m.rotary, length))
+    return Truth(there, true.orientation(stands))
+
+
+def correct(m: Machine, kinematics: Kinematics) -> None:
+    """The control has other kinematics from now on: no axis moves, but the tip is known to be elsewhere on the part.
+
+    The row that leads there is the last one of the block.
+    """
+    x, y, z = kinematics.tips(np.array(reference(m)), np.array(m.rotary), m.tool.effective_length).tolist()
+    m.tables.kinematics = kinematics
+    m.log(CHAIN, kinematics)
+    if math.dist((x, y, z), m.tip) > STILL:
+        m.add_row(Kind.STOP, (x, y, z))
+        m.tip = x, y, z
+    stand(m)
+
+
 def change_length(m: Machine, length: float) -> None:
     """The tip is where another tool brings it, while all axes stand; `length` is that of the tool before, mm."""
     kinematics = chain(m)
@@ -141,17 +189,19 @@ def change_length(m: Machine, length: float) -> None:
 
 
 def turn_axes(
-    m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None, most: float = math.inf,
+    m: Machine, to: Angles, f: float | None, word: Word | None = None, below: float | None = None,
+    most: float = math.inf, in_plane: bool = False,
 ) -> None:  # fmt: skip
-    """Turn to angles (degrees) while the linear axes stand, or the tip that is led; `f` is in degrees a minute, infinite at
-    rapid, None the modal feed. `below` and `most` are those of `swing`.
+    """Turn to angles (degrees) while the linear axes stand, or the tip that is led. `below`, `most` and `in_plane` are those of
+    `swing`.
 
-    The time of a rapid turn is not known: no limits of rotary axes are.
+    `f` is in degrees a minute, infinite at rapid, None the modal feed. The time of a rapid turn is not known: no limits of rotary
+    axes are.
     """
     rate = turning_feed(m) if f is None else f
     way = max(abs(new - old) for new, old in zip(to, angles(m), strict=True))
     if m.tables.kinematics is not None:
-        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below, most=most)
+        swing(m, to, None, math.inf if math.isinf(rate) else way / rate, word, below, most=most, in_plane=in_plane)
         return
     set_angles(m, to)
     kind = Kind.LINE if math.isfinite(rate) else Kind.RAPID
@@ -178,7 +228,7 @@ def travel(
     if rate < 0:  # a time for the move
         swing(m, to, point, -rate / 60, word, most=most, in_plane=in_plane)
     elif way <= STILL:
-        turn_axes(m, to, f, word, most=most)
+        turn_axes(m, to, f, word, most=most, in_plane=in_plane)
         if point is not None:
             m.set_register(point)
     elif of_all:
@@ -207,7 +257,7 @@ def swing(
     led = m.reckoned is None or below is not None
     length = own + (below or 0.0)
     start, end = led_ends(m, point, below or 0.0) if led else linear_ends(m, kinematics, point)
-    count = 8
+    count = max(1, min(FIRST, math.ceil(float(np.abs(after - before).max()) / FINE)))
 
     def places(share: Array) -> tuple[Array, Array]:
         """X Y Z (n, 3) of the spindle reference, and the angles."""
@@ -215,7 +265,7 @@ def swing(
         even = start + share[:, None] * (end - start)
         return (kinematics.references(even, turning, length) if led else even), turning
 
-    tolerance = allowed(m)
+    tolerance, worst = allowed(m), math.inf
     while True:
         linear, turning = places(np.linspace(0, 1, count + 1))
         if led:  # between rows all axes run evenly, and the tip leaves its line
@@ -224,9 +274,11 @@ def swing(
             middle, half = places((np.arange(count) + 0.5) / count)
         tips = kinematics.tips(linear, turning, own)
         off = kinematics.tips(middle, half, own) - (tips[1:] + tips[:-1]) / 2
-        worst = float(np.linalg.norm(off, axis=1).max())
+        wider, worst = worst, float(np.linalg.norm(off, axis=1).max())
         if worst <= tolerance or count > MOST:
             break
+        if in_plane and worst > max(wider / 2, 2 * tolerance):  # smaller rows come no nearer
+            m.alarm("the rotary axes would have to jump on the way: it leads through a place where one of them is free", word)
         count = int(math.ceil(count * max(math.sqrt(worst / tolerance), 1.01)))
     if count > MOST:
         m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)
@@ -253,10 +305,22 @@ def swing(
                 m.add_row(Kind.LINE, tip, feed=60 * (way if way > STILL else turned) / seconds, time=seconds)
             m.tip = tip
     m.log("rotary", m.rotary)
+    came = np.sign(np.where(np.abs(after - before) > SAME, after - before, m.arrived))
+    m.put(arrived=tuple(came.tolist()))
     m.tip = (x, y, z)
     stand(m)
     if point is not None:
         m.set_register(point)
+
+
+def roll_over(m: Machine, cylinder: Cylinder, points: Array, angles: Array, ways: Array, f: float | None) -> None:
+    """Go over a cylinder that one rotary axis turns, as `coordinates.roll` does, by the kinematics of the machine: through tips
+    (n, 3) of the program, for which the linear axes go where they would with the rotary axes as coordinates are reckoned."""
+    rate, size = m.feed_of(f), math.hypot(*m.frames.matrix[:3, 0].tolist())
+    for point, angle, way in zip(points.tolist(), np.degrees(angles).tolist(), ways.tolist(), strict=True):
+        a, b, c = (angle if k == cylinder.rotary else math.degrees(old) for k, old in enumerate(m.rotary))
+        if math.dist((a, b, c), map(math.degrees, m.rotary)) > STILL or math.dist(point, m.programmed) > STILL:
+            swing(m, (a, b, c), point, math.inf if math.isinf(rate) else way * size / rate)
 
 
 def between(kinematics: Kinematics, before: Array, after: Array, share: Array) -> Array:
@@ -316,18 +380,28 @@ def lengths_of_rows(step: NDArray[np.integer[Any]], changes: Sequence[tuple[int,
     return np.asarray(lengths[np.searchsorted(np.array(at, dtype=np.int64), step, "right")])
 
 
-def references(path: Toolpath, points: Array, row: Index, lengths: Array) -> Array:
-    """X Y Z (m, 3), machine coordinates, for tips (m, 3) of a path on its rows (m,), whose tools are so long (n,)."""
+def references(
+    path: Toolpath, points: Array, row: NDArray[np.integer[Any]], lengths: Array, corrected: Sequence[tuple[int, Any]] = ()
+) -> Array:
+    """X Y Z (m, 3), machine coordinates, for tips (m, 3) of a path on its rows (m,), whose tools are so long (n,).
+
+    `corrected` are the changes of the kinematics: each counts from the last row of its step on.
+    """
     tips = points + path.origin
     if path.kinematics is None:
         return np.asarray(tips + np.multiply.outer(lengths[row], [0.0, 0.0, 1.0]))
-    return path.kinematics.references(tips, path.rotary[row], lengths[row])
+    found = path.kinematics.references(tips, path.rotary[row], lengths[row])
+    for step, kinematics in corrected:
+        last = int(np.searchsorted(path.step, step, "right")) - 1
+        since = row >= (last if last >= 0 and path.step[last] == step else last + 1)
+        found[since] = kinematics.references(tips[since], path.rotary[row[since]], lengths[row[since]])
+    return found
 
 
-def first_beyond(path: Toolpath, lengths: Array, travel: Array) -> Beyond | None:
+def first_beyond(path: Toolpath, lengths: Array, travel: Array, corrected: Sequence[tuple[int, Any]] = ()) -> Beyond | None:
     """The first row on which the axes of a machine with kinematics leave their travel (3, 2), mm; None if none does."""
     points, row = path.points()
-    place = references(path, points, row, lengths)
+    place = references(path, points, row, lengths, corrected)
     over = np.maximum(travel[:, 0] - place, place - travel[:, 1])
     out = np.flatnonzero((over > NOISE).any(axis=1))
     if not len(out):

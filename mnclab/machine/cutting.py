@@ -23,8 +23,9 @@ from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
 from mnclab.workpiece.cutting import UPRIGHT, Cutting
+from mnclab.workpiece.milling.gaps import Group
 from mnclab.workpiece.milling.moves import Moves, joined, moves_of
-from mnclab.workpiece.milling.tilted import Group, screwed, tilted_groups
+from mnclab.workpiece.milling.tilted import screwed, tilted_groups
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 

@@ -147,6 +147,8 @@ class Cycle:
     """Whether it turns the spindle itself, so that none need turn before it."""
     does: ClassVar[str] = coordinates.VISITS
     """What decides whether it can run under a scale; see `machine.coordinates`."""
+    tried_on: ClassVar[str] = ""
+    """The machine that has the rotary axes which it needs (`mnclab.machines`), where it is tried out."""
 
     @classmethod
     @cache

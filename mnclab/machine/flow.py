@@ -162,25 +162,27 @@ CHARACTERS = 250  # that count as a block of the limit: a loop that writes for e
 
 @dataclass(frozen=True)
 class PrintedPiece:
-    """What was put out in a step; `anew`: the file begins with it."""
+    """What was put out in a step; `anew`: the file begins with it; `gone`: it is deleted."""
 
     text: str
     anew: bool
+    gone: bool = False
 
     def __repr__(self) -> str:
         first, _, more = self.text.rstrip().partition("\n")
         return repr(first) + (f" and {several(more.count(chr(10)) + 1, 'more line')}" if more else "")
 
 
-def put_out(m: Machine, name: str, text: str, anew: bool = False) -> None:
-    """Write to a file, behind what it holds or anew; small and capital letters of its name are the same."""
+def put_out(m: Machine, name: str, text: str | None, anew: bool = False) -> None:
+    """Write to a file, behind what it holds or anew, or delete it (None); small and capital letters of its name are the same."""
+    gone, text = text is None, text or ""
     m.flow.spend(len(text) // CHARACTERS)
     logs = m.logs.by_name
     key = next((known for known in logs if known.lower() == (FILE + name).lower()), FILE + name)
     log = logs.get(key)
     if log is not None and log.steps and log.steps[-1] == m.step and not anew:
         text, anew = log.values[-1].text + text, log.values[-1].anew
-    m.log(key, PrintedPiece(text, anew or log is None))
+    m.log(key, PrintedPiece(text, anew or log is None or log.values[-1].gone, gone))
 
 
 class Files(Listing, dict[str, str]):
@@ -198,10 +200,12 @@ def written(names: Iterable[str], changed: Callable[[str], list[tuple[int, Any]]
     found = Files()
     for name in names:
         if name.startswith(FILE):
-            texts: list[str] = []
+            texts, gone = list[str](), False
             for _, piece in changed(name):
                 if piece.anew:
                     texts.clear()
                 texts.append(piece.text)
-            found[name.removeprefix(FILE)] = "".join(texts)
+                gone = piece.gone
+            if not gone:
+                found[name.removeprefix(FILE)] = "".join(texts)
     return found

@@ -289,12 +289,13 @@ def stop_at_travel(m: Machine) -> None:
     if m.setup.limits.travel is None or not m.settled:
         return
     path, travel = concatenate(m.settled), np.array(m.setup.limits.travel, dtype=np.float64)
-    if m.tables.kinematics is None:
+    if m.setup.kinematics is None:
         found = first_beyond(path, np.array(m.setup.start), travel)
     else:
-        path = path.annotated(kinematics=m.tables.kinematics)
-        first = m.tables.tools[0].effective_length
-        found = axes.first_beyond(path, axes.lengths_of_rows(path.step, m.logs.changed("tool", m.step), first), travel)
+        path = path.annotated(kinematics=m.setup.kinematics)
+        tools, corrected = (m.logs.changed(name, m.step) for name in ("tool", axes.CHAIN))
+        lengths = axes.lengths_of_rows(path.step, tools, m.tables.tools[0].effective_length)
+        found = axes.first_beyond(path, lengths, travel, corrected)
     if found is None:
         return
     m.cut = int(path.step[found.row])
@@ -359,7 +360,7 @@ def _shown(m: Machine, path: Toolpath) -> Toolpath:
     notes = {"labels": tuple(m.recorder.labels), "joints": tuple(m.recorder.joints), "origin": tuple(origin)}
     notes["cylinders"] = tuple(one.moved(-origin) for one in m.recorder.cylinders)
     unit = {"inches": m.variable_unit != 1, "tenths": m.feed_unit != m.variable_unit}
-    return path.annotated(**notes, **unit, lathe=m.control.lathe, kinematics=m.tables.kinematics)
+    return path.annotated(**notes, **unit, lathe=m.control.lathe, kinematics=m.setup.kinematics)
 
 
 def shifted(m: Machine) -> Iterator[compensation.Gouge]:

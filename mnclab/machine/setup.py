@@ -318,6 +318,11 @@ class Setup:
     def kept(self, magazine: Magazine = MILLS) -> Setup:
         """A copy, checked again, whose tables nobody can write to: what a run was made with, the tools of a magazine if
         it had none."""
+        if (moves := self.true_kinematics) is not None:
+            there = "none" if self.kinematics is None else self.kinematics.names
+            if there != moves.names:
+                what = f"true_kinematics has the axes {moves.names}, and kinematics has {there}"
+                raise Alarm(what, hint="both name the same axes: kinematics as the control has them, true_kinematics as they are")
         tools = magazine if self.tools is None else self.tools
         found = replace(self, tools=tools, stock=deepcopy(self.stock), fixtures=deepcopy(tuple(self.fixtures)))
         true = {n: _truly(each, tools[n]) if n in tools else each for n, each in self.true_tools.items()}

@@ -55,7 +55,8 @@ high = [0, 40, 15]
                                # or, above all tables, limits = "small-mill", a machine that has a name
 [kinematics]                   # the rotary axes, from the machine on: head to the tool, table to the part; or, above all
 table = [{ name = "A", centre = [0, 0, 50], limits = [-120, 120] }, { name = "C" }]  # tables, kinematics = "table-ac"
-                               # of an axis also direction = [x, y, z] and home, degrees; [true_kinematics] is written alike
+                               # of an axis also direction = [x, y, z] and home, degrees; shift = [x, y, z] of all;
+                               # [true_kinematics] is written alike, its axes may have backlash, degrees
 [probe]                        # clearance, reach, feed, rapid, positioning, track, angle, offset [x, y]: as its table has it;
                                # true_offset, deflection [x, y, z], spread, seed, stem, stem_length: as it is
 [setter]                       # what measures tools, machine coordinates: x, y, z, diameter of a plate; or axis "X" or "Y" of a

@@ -324,7 +324,9 @@ class State:
     unheard: str = part("")  # functions whose codes begin so do nothing: where only the contour counts
     block_end: list[Callable[[], None]] = part(lambda m: [])  # to be done when the block is over
     alarms: Alarms = part(lambda m: Alarms(), outlives=True, compared=())  # those of blocks are noted
-    noted: set[tuple[str, Span | None]] = part(lambda m: set(), outlives=True)  # of which a warning was given
+    noted: set[tuple[str, Span | None]] = part(
+        lambda m: set(), outlives=True, compared=(PATTERN, REPEAT)
+    )  # of which a warning was given; blocks of holes give theirs again
     logs: Logs = part(lambda m: Logs(), outlives=True, compared=())
 
     # where the tool is
@@ -336,6 +338,7 @@ class State:
     pole: tuple[float, float] | None = part(None)
     rotary: Place = part(lambda m: m.setup.kinematics.home if m.setup.kinematics else (0.0, 0.0, 0.0), rows=True, history=True)
     """A, B, C, radians."""
+    arrived: Place = part((0.0, 0.0, 0.0))  # each axis from which side: 1 in positive direction, -1 in negative, 0 never
     reckoned: Place | None = part((0.0, 0.0, 0.0))  # with which coordinates count; None: as they stand, the tip is led
     turned: Matrix | None = part(None)  # what becomes of the part where they stand elsewhere, before all frames
     cylinder: int = part(-1, rows=True)  # of those of the recorder, on which the rows lie that are made now

@@ -2,7 +2,8 @@
 
 What the control knows of its probe stands in the tables: the radius of the ball, the length (to the south pole of the ball),
 the offset of the ball from the spindle axis. The part meets the probe as it is: `Setup(true_tools=…)` and the truths of
-`Probe`. So a probe that is not calibrated measures wrong, as on a machine.
+`Probe`. So a probe that is not calibrated measures wrong, as on a machine. So does one on rotary axes whose centres are not
+where the control has them: `Setup(true_kinematics=…)`.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mnclab.geometry.curves import turned
+from mnclab.geometry.kinematics import moved
+from mnclab.machine.axes import direction as direction_of_tool
+from mnclab.machine.axes import orientation, truth
 from mnclab.machine.coordinates import FRAME, LOG, PLANES, axes_of, tool_axis
 from mnclab.machine.cutting import CUT, TILT, directions_of_rows, part_before, start_known
 from mnclab.machine.measuring import Touched
@@ -25,7 +29,7 @@ from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 from mnclab.workpiece.cutting import UPRIGHT
 from mnclab.workpiece.part import Part, box, contact, cylinder, foot, hole
-from mnclab.workpiece.part.touching import GRAZE, blocked
+from mnclab.workpiece.part.touching import GRAZE, blocked, released
 
 if TYPE_CHECKING:
     from mnclab.machine.machine import Machine
@@ -68,11 +72,22 @@ class Felt(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """The ball as it is: where its centre stands beside the programmed tip, its radius, and the way up its stem."""
+    """The ball as it is: where its centre stands beside the tip, its radius, the way up its stem, and what leads from the tip as
+    the control has it to where that truly is (4, 4), None where both are one."""
 
     beside: Floats
     radius: float
     up: Floats
+    moved: Floats | None = None
+
+    def at(self, tip: Any) -> Floats:
+        """Where its centre truly is on the part while the control has the tip at a place (…, 3)."""
+        there = np.asarray(tip)
+        return (there if self.moved is None else moved(self.moved, there)) + self.beside
+
+    def way(self, direction: Floats) -> Floats:
+        """How it truly goes on the part while the control has the tip go in a direction (3,)."""
+        return direction if self.moved is None else self.moved[:3, :3] @ direction
 
 
 def unfit(m: Machine, *, still: bool = False) -> Iterator[tuple[str, str]]:
@@ -99,12 +114,12 @@ def part_to_touch(m: Machine, word: Word | None = None) -> Part | None:
 
 
 def offset(m: Machine, of: tuple[float, float]) -> Floats:
-    """An offset (x, y) of the ball from the spindle axis, turned with the spindle, in machine coordinates (3,)."""
+    """An offset (x, y) of the ball from the spindle axis, turned with spindle and rotary axes, on the part (3,)."""
     found, turn = np.zeros(3), math.radians((m.spindle_angle or 0.0) - m.tables.probe.angle)
     first, second, _ = next(axes for axes in PLANES.values() if axes[2] == tool_axis(m))
     x, y = of
     found[[first, second]] = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
-    return found
+    return orientation(m) @ found
 
 
 def ball_from_axis(m: Machine) -> tuple[float, float]:
@@ -115,15 +130,66 @@ def ball_from_axis(m: Machine) -> tuple[float, float]:
     return x, y
 
 
+def up_the_tool(m: Machine) -> Floats:
+    """The direction (3,) on the part from the tip up the tool, as the control has it."""
+    if m.tables.kinematics is not None:
+        return direction_of_tool(m)
+    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
+    return np.asarray(up / np.linalg.norm(up))
+
+
 def true_ball(m: Machine, ball: float) -> Ball:
     """The ball of the tool in the spindle, as it is; `ball` is the radius where nobody says it."""
     true = m.setup.true_tools.get(m.tool.number)
-    up = np.array(m.matrix[:3, 2 if FRAME in m.frames else tool_axis(m)])
-    up /= np.linalg.norm(up)
     radius = ball if true is None else true.effective_radius
     longer = 0.0 if true is None else true.effective_length - m.tool.effective_length
     where = m.tables.probe.offset if m.setup.probe.true_offset is None else m.setup.probe.true_offset
-    return Ball(offset(m, where) + up * (radius - longer), radius, up)
+    if (there := truth(m)) is None:
+        up = up_the_tool(m)
+        return Ball(offset(m, where) + up * (radius - longer), radius, up)
+    up = there.orientation[:, 2]
+    beside = there.orientation @ orientation(m).T @ offset(m, where)
+    return Ball(beside + up * (radius - longer), radius, up, there.moved)
+
+
+class Way(NamedTuple):
+    """A straight way of the tip, as the control has it: from where, which way, how far at most, and the ball that goes it."""
+
+    start: Floats
+    direction: Floats
+    reach: float
+    ball: Ball
+
+    @property
+    def begin(self) -> Floats:
+        """Where the centre of the ball truly begins."""
+        return self.ball.at(self.start)
+
+    @property
+    def ahead(self) -> Floats:
+        """Which way it truly goes."""
+        return self.ball.way(self.direction)
+
+
+def way_to(m: Machine, target: Point, ball: float, word: Word | None) -> Way:
+    """The way to a point in program coordinates."""
+    start, goal = np.array(m.tip), np.array(m.to_machine(target))
+    reach = float(np.linalg.norm(goal - start))
+    if reach == 0:
+        m.alarm("a touch needs a direction", word)
+    return Way(start, (goal - start) / reach, reach, true_ball(m, ball))
+
+
+def part_that_is_touched(m: Machine, word: Word | None) -> Part:
+    """The part; an Alarm where there is none."""
+    if m.setup.part is None:
+        m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
+    part = m.felt.part if m.felt else part_to_touch(m, word)
+    assert part is not None
+    m.variables.state_read = m.step
+    if m.turning:
+        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
+    return part
 
 
 def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, miss: str) -> Contact:
@@ -134,56 +200,75 @@ def touch(m: Machine, target: Point, f: float, ball: float, word: Word | None, m
     """
     if m.side:
         m.alarm("a probe cannot move under radius compensation", word)
-    if m.setup.part is None:
-        m.alarm("there is no part to touch", word, hint='give one: Setup(part=…); "cut" is what the program has cut')
-    part = m.felt.part if m.felt else part_to_touch(m, word)
-    assert part is not None
-    m.variables.state_read = m.step
-    start, goal = np.array(m.tip), np.array(m.to_machine(target))
-    reach = float(np.linalg.norm(goal - start))
-    if reach == 0:
-        m.alarm("a touch needs a direction", word)
-    direction, true = (goal - start) / reach, true_ball(m, ball)
-    begin = start + true.beside
+    part, way = part_that_is_touched(m, word), way_to(m, target, ball, word)
+    begin, ahead, reach, true = way.begin, way.ahead, way.reach, way.ball
     room = float(part(begin)[0])
     if room - true.radius < -DEEP - slack(m):
         m.alarm("the stylus is in contact before it touches", word, hint="the touch begins where the ball is free")
     # a ball that only rests on the part goes along it, and on to what stands in its way
-    travel = contact(part, begin, direction, min(true.radius, max(room - RESTS, DEEP)), reach)
-    if travel is not None and not part.exact and not foot(part, begin + direction * travel)[1]:
+    travel = contact(part, begin, ahead, min(true.radius, max(room - RESTS, DEEP)), reach)
+    if travel is not None and not part.exact and not foot(part, begin + ahead * travel)[1]:
         hint = "it may touch a little later; parts of boxes, holes, slots, pockets and bosses with one axis are exact there"
         m.warn("the ball touches off a cut edge of the part, where the distance is only bounded", word, hint=hint)
     if travel is not None:
-        travel += trigger(m, direction)
-    way = reach if travel is None else travel
-    if (stopped := stem_meets(m, part, true, begin, begin + direction * way)) is not None:
-        m.probe_to(_point(start + direction * stopped), f)
-        m.alarm("the stem of the probe touches the part before the ball does", word)
-    end = start + direction * way
-    m.probe_to(_point(end), f)
+        travel += trigger(m, orientation(m).T @ way.direction)
+    end = go_along(m, part, way, travel, f, word)
     if travel is None and miss == "alarm":
         m.alarm(f"touch point inaccessible: the probe did not trigger within {reach:g} mm", word)
-    centre = _point(end + offset(m, m.tables.probe.offset) + np.array(true.up) * ball)
-    number = -1
-    if travel is not None:
-        number = len(m.touches)
-        surface = _point(begin + direction * (travel + true.radius))
-        found = m.to_program(_point(np.array(centre) + direction * ball))
-        m.touches.append(
-            Touched(m.step, m.source_line, m.program, m.label, _point(begin), _point(begin + direction * travel),
-                    _point(direction), true.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
-        )  # fmt: skip
+    centre = _point(end + offset(m, m.tables.probe.offset) + up_the_tool(m) * ball)
+    number = -1 if travel is None else noted(m, way, travel, 1, centre, ball)
     return Contact(m.to_program(centre), centre, travel is not None, _point(end), number)
+
+
+def release(m: Machine, target: Point, f: float, ball: float, word: Word | None) -> bool:
+    """Move a probe that touches towards a point in program coordinates until its ball is free; whether it came to that."""
+    part, way = part_that_is_touched(m, word), way_to(m, target, ball, word)
+    travel = released(part, way.begin, way.ahead, way.ball.radius, way.reach)
+    end = go_along(m, part, way, travel, f, word)
+    if travel is not None:
+        centre = _point(end + offset(m, m.tables.probe.offset) + up_the_tool(m) * ball)
+        noted(m, way, travel, -1, centre, ball)
+    return travel is not None
+
+
+def go_along(m: Machine, part: Part, way: Way, travel: float | None, f: float, word: Word | None) -> Floats:
+    """A probing move of so much of a way, or of all of it; where it ends, machine coordinates (3,). The stem must not touch."""
+    far = way.reach if travel is None else travel
+    if (stopped := stem_meets(m, part, way.ball, way.begin, way.begin + way.ahead * far)) is not None:
+        m.probe_to(_point(way.start + way.direction * stopped), f)
+        m.alarm("the stem of the probe touches the part before the ball does", word)
+    end = way.start + way.direction * far
+    m.probe_to(_point(end), f)
+    return end
+
+
+def noted(m: Machine, way: Way, travel: float, sense: int, centre: Point, ball: float) -> int:
+    """Keep a touch for `run.touches`: the part lies ahead of the ball, with the sense -1 behind it. Its number."""
+    touched = way.begin + way.ahead * travel
+    surface = _point(touched + sense * way.ahead * way.ball.radius)
+    found = m.to_program(_point(np.array(centre) + sense * way.direction * ball))
+    m.touches.append(
+        Touched(m.step, m.source_line, m.program, m.label, _point(way.begin), _point(touched),
+                _point(sense * way.ahead), way.ball.radius, surface, m.to_program(centre), found, m.matrix, axes_of(m))
+    )  # fmt: skip
+    return len(m.touches) - 1
+
+
+def rests(m: Machine, ball: float, word: Word | None) -> bool:
+    """Whether the ball touches the part where it stands."""
+    true = true_ball(m, ball)
+    return float(part_that_is_touched(m, word)(true.at(m.tip))[0]) - true.radius <= RESTS
 
 
 def deflected(m: Machine, part: Part | None, ball: float) -> bool:
     """Whether the stylus stands in contact already."""
     true = true_ball(m, ball)
-    return part is not None and float(part(np.array(m.tip) + true.beside)[0]) - true.radius < -DEEP - slack(m)
+    return part is not None and float(part(true.at(m.tip))[0]) - true.radius < -DEEP - slack(m)
 
 
 def trigger(m: Machine, direction: Floats) -> float:
-    """How far the probe goes on after the contact until it triggers: its deflection, and its randomness."""
+    """How far the probe goes on after the contact until it triggers, in a direction as the tool has it: its deflection, and its
+    randomness."""
     probe = m.setup.probe
     more = float(np.abs(direction) @ np.array(probe.deflection))
     if probe.spread:
@@ -217,17 +302,17 @@ def guarded(m: Machine, part: Part, target: Point, feed: float | None) -> None:
     way = float(np.linalg.norm(goal - start))
     if way > 0:
         ball, direction = true_ball(m, m.tool.effective_radius), (goal - start) / way
-        begin, radius = start + ball.beside, max(ball.radius - DEEP - slack(m), DEEP)
-        end = begin + direction * way
+        begin, ahead, radius = ball.at(start), ball.way(direction), max(ball.radius - DEEP - slack(m), DEEP)
+        end = begin + ahead * way
         far = is_free(part, begin, end, radius)
-        free = None if far else contact(part, begin, direction, radius, way, GRAZE)
+        free = None if far else contact(part, begin, ahead, radius, way, GRAZE)
         stem = stem_meets(m, part, ball, begin, end)
         stopped = min((each for each in (free, stem) if each is not None), default=None)
         if stopped is not None:
             m.line(*m.to_program(_point(start + direction * stopped)), f=feed)
             which = "stylus" if stopped == free else "stem of the probe"
             hint = "the axes stop there; a larger clearance, another height or nominal sizes nearer to the part help"
-            if not part.exact and not foot(part, begin + direction * stopped)[1]:
+            if not part.exact and not foot(part, begin + ahead * stopped)[1]:
                 hint = "its distance is only bounded there: what is taken out of it should stick out by more than the ball"
             m.alarm(f"path obstructed: the {which} touches the part at {place_of(m, m.programmed)} while positioning", hint=hint)
     m.line(*target, f=feed)
@@ -241,7 +326,7 @@ def guarded_turn(m: Machine, part: Part, centre: tuple[float, float], angle: flo
     turns = np.linspace(0.0, angle, min(count, 4000))
     places = np.column_stack([turned(np.broadcast_to(spoke, (len(turns), 2)), turns) + centre, np.full(len(turns), start[2])])
     ball = true_ball(m, m.tool.effective_radius)
-    centres = np.array([m.to_machine(place) for place in places.tolist()]) + ball.beside
+    centres = ball.at(moved(m.matrix, places))
     hit = np.flatnonzero(part(centres) < ball.radius - DEEP - slack(m))
     if len(hit):
         m.alarm(f"path obstructed: the stylus touches the part at {place_of(m, places[hit[0]])} while positioning")
@@ -278,7 +363,7 @@ def stop_at_part(m: Machine) -> None:
     probes = [number for number, tool in m.tables.tools.items() if tool.kind == "probe"]
     rows = path.is_motion & (path.kind != Kind.PROBE) & np.isin(path.tool, probes) & (path.label == 0)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
-    directions = directions_of_rows(path, tilts, axes)
+    directions = directions_of_rows(path.annotated(kinematics=m.setup.kinematics), tilts, axes)
     if directions is not None:
         rows &= (directions[..., 2] > UPRIGHT).all(axis=1)
     rows[: start_known(path, m.setup.start)[1]] = False

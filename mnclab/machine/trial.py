@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mnclab.machine.control import Control
@@ -40,6 +41,11 @@ MEASURED = Tool(radius=8, length=100, number=7, name="cutter 16", teeth=4, kind=
 def at_setter(setter: Setter, **settings: Any) -> Setup:
     """The machine of trials: a tool setter on it, and a tool whose length is known."""
     return Setup(tools={**MILLS, MEASURED.number: MEASURED}, setter=setter, settings=settings)
+
+
+def on_its_machine(cycle: type[Cycle], setup: Setup) -> Setup:
+    """The setup with the rotary axes that a cycle needs, where it has none."""
+    return replace(setup, kinematics=cycle.tried_on) if cycle.tried_on and setup.kinematics is None else setup
 
 
 def number(value: float) -> str:

@@ -229,9 +229,10 @@ class Write(NamedTuple):
     """A value that stays: an attribute of the machine that rows carry ("side"), or with a `key` one of these.
 
     A "variable", a "measured" value, a row of "tools", "datums" or "presets", the "probe" table, the "tool" in the spindle as it
-    is from now on, a whole "file" by its name or what is "appended" to it, a "frame", the new name of a frame ("renamed"),
-    the "datum" as a frame, or as a "chosen datum", a "modal" group, "memory" of the control, what is "kept" for the next
-    call of the cycle, a value that only the "history" keeps.
+    is from now on, a whole "file" by its name (None: it is deleted) or what is "appended" to it, the "kinematics" from now on,
+    the angles with which coordinates are "reckoned", a "frame", the new name of a frame ("renamed"), the "datum" as a frame, or
+    as a "chosen datum", a "modal" group, "memory" of the control, what is "kept" for the next call of the cycle, a value that
+    only the "history" keeps.
     """
 
     what: str

@@ -133,12 +133,12 @@ def kinematics_in(value: Any, file: File, title: str = "", name: str = "kinemati
     """The rotary axes that the table `[kinematics]` of a file writes."""
     with file.at(name):
         table = as_table(value, name)
-        check_names(table, ("head", "table", "title"), name, file, name)
+        check_names(table, [each.name for each in fields(Kinematics)], name, file, name)
         chains = {}
         for side in ("head", "table"):
             each = enumerate(as_tables(table.get(side, []), f"{name}.{side}"))
             chains[side] = tuple(_axis(as_table(one, f"{name}.{side}"), file, name, side, str(k)) for k, one in each)
-        return Kinematics(**chains, title=table.get("title", title))
+        return Kinematics(**chains, title=table.get("title", title), shift=table.get("shift", Kinematics.shift))
 
 
 def _axis(table: Mapping[str, Any], file: File, *keys: str) -> Axis:

@@ -229,7 +229,7 @@ class Recorder:
             return
         table = np.frombuffer(self.rows).reshape(-1, len(ROW))
         self.rows = array("d")
-        chunk = {name: _plain(name, table[:, place]) for name, place in PLACES.items()}
+        chunk = columns_of(table)
         self._append(chunk, chunk.pop("end"))
 
     def take(self) -> Toolpath:
@@ -267,6 +267,11 @@ class Recorder:
 
 def _refuse(count: int) -> NoReturn:
     raise ValueError(f"there would be {count} rows")
+
+
+def columns_of(rows: Array, names: Iterable[str] = PLACES) -> dict[str, NDArray[Any]]:
+    """Columns of single rows (n, k) in the order of `ROW`; one value where it serves for all of them."""
+    return {name: _plain(name, rows[:, PLACES[name]]) for name in names}
 
 
 def _plain(name: str, part: Array) -> NDArray[Any]:

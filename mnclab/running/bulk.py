@@ -23,7 +23,7 @@ from mnclab.geometry.arcs import centre_from_radius, sweep
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.rows import LEAST_FEED, row_state
 from mnclab.path.toolpath import Kind
-from mnclab.running.repeating import repeat_hole
+from mnclab.running.drilling import FEWEST, Drilling, filled
 from mnclab.text import given
 from mnclab.text.program import Program
 
@@ -100,7 +100,7 @@ class Bulk:
         self.enabled = self.rule is not None and machine.settings.get("bulk", True)
         self.not_before, self.size, self.last = 0, SHORTEST, 0
         self.next_break = -1
-        self.once_more = False  # the first of two holes was not like any other
+        self.faulty = faulty
         if self.rule is None:
             return
         plain = program.plain.copy()
@@ -113,10 +113,12 @@ class Bulk:
             plain[np.searchsorted(program.first, of_them, "right") - 1] = False
         self.calls_end = self._ends_of_calls(plain)
         self.breaks = np.append(np.flatnonzero(~plain), len(program))
-        self.enabled = self.enabled and (len(program) - len(self.breaks) + 1 >= SHORTEST or len(self.calls_end) > 0)
+        self.enabled = self.enabled and (len(program) - len(self.breaks) + 1 >= FEWEST or len(self.calls_end) > 0)
         self.codes = {value: code for value, (code, _) in self.rule.motions.items()}
         self.senses = {code: sense for code, sense in self.rule.motions.values()}
         self.next_break = int(self.breaks[0])
+        self.keyword = program.keywords.index(self.rule.keyword) if self.rule.keyword in program.keywords else -1
+        self.drilling = Drilling(self)
 
     def _ends_of_calls(self, plain: Mask) -> NDArray[np.int64]:
         """Of each block (b + 1,) where the run of plain blocks ends that call a cycle, of others the block itself; nothing
@@ -140,17 +142,17 @@ class Bulk:
         if not self.enabled or first < self.not_before:
             return 0
         if len(self.calls_end) and self.calls_end[first] > first:
-            return self.call_at_each(first, min(int(self.calls_end[first]), stop))
+            return self.holes(first, stop, int(self.calls_end[first])) if self.may_call() else 0
         if first > self.next_break or self.next_break - first < SHORTEST:
             self.next_break = int(self.breaks[np.searchsorted(self.breaks, first)])
+        if self.machine.position_cycle:
+            return self.holes(first, stop, self.next_break)
         end = min(self.next_break, stop, first + self.size)
         if end - first < SHORTEST:
             self.not_before = end if self.next_break > first else first + 1
             return 0
         rule = self.rule
         assert rule is not None
-        if self.machine.position_cycle:
-            return self.holes(first, end, self.next_break)
         if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
             return 0
         end = self.before_word(first, end, rule.ends_at(self.machine))
@@ -167,17 +169,19 @@ class Bulk:
             self.size = min(2 * self.size, LARGEST)
         return good
 
-    def call_at_each(self, first: int, end: int) -> int:
-        """Obey blocks of the run up to `end` that call the cycle at their places; how many were."""
+    def may_call(self) -> bool:
+        """Whether a block may call the cycle at its place and do nothing else."""
         m, rule = self.machine, self.rule
-        assert rule is not None
-        if m.cycle is None or m.position_cycle or m.pending or m.side or not rule.ready(m):
-            return 0
-        return self.holes(first, min(end, first + self.size), end) if end - first >= SHORTEST else 0
+        return rule is not None and m.cycle is not None and not (m.position_cycle or m.side) and rule.ready(m)
 
-    def holes(self, first: int, end: int, last: int) -> int:
-        """Obey those of the blocks [first, end) that make the same hole, in a run up to `last`; how many were."""
-        done = repeat_hole(self, first, end, last, SHORTEST)
+    def holes(self, first: int, stop: int, last: int) -> int:
+        """Obey blocks of [first, stop) with holes, if those up to `last` make some; how many were."""
+        if last - first < FEWEST:
+            self.not_before = max(last, first + 1)
+            return 0
+        end = min(stop, first + self.size)
+        done = self.drilling.obey(first, end)
+        self.not_before = first + (done + 1 if done else FEWEST)
         self.size = min(8 * self.size, LARGEST) if done == end - first - 1 else SHORTEST
         return done
 
@@ -240,13 +244,13 @@ class Bulk:
             written = ~np.isnan(words[axis])
             moves |= written
             if absolute:
-                points[1:, k] = _filled(start, words[axis])
+                points[1:, k] = filled(start, words[axis])
             else:
                 points[:, k] = np.cumsum(np.concatenate([[start], np.where(written, words[axis], 0.0)]))
         tips = points if same else self.to_machine(points)  # no copy: memory costs more than the work on it
 
         no_feed = np.nan if machine.feed is None else machine.feed
-        feed = _filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
+        feed = filled(no_feed, words["F"]) if "F" in words else np.full(n, no_feed)
         motion, fault = self.motions(words.get("G"), n)
         if rule.rapid in self.program.addresses:
             motion[self.having(first, end, self.program.addresses.index(rule.rapid))] = 0
@@ -289,7 +293,7 @@ class Bulk:
             return np.full(n, self.senses[self.codes[None]]), np.zeros(n, dtype=bool) if g is None else ~np.isnan(g)
         active = self.machine.modal.get(self.group, "")
         start = next((value for value, code in self.codes.items() if code == active), None)
-        values = np.full(n, start, dtype=float) if g is None else _filled(np.nan if start is None else start, g)
+        values = np.full(n, start, dtype=float) if g is None else filled(np.nan if start is None else start, g)
         sense = np.full(n, NO_MOTION)
         for value in set(self.codes) if g is not None else {start}:
             if value is not None:
@@ -301,32 +305,36 @@ class Bulk:
         machine, rule = self.machine, self.rule
         assert rule is not None
         first, second, normal = PLANES[machine.plane]
-        k = np.flatnonzero(run.arc)
-        s, e = run.points[k][:, [first, second]], run.points[k + 1][:, [first, second]]
+        k: Any = slice(None) if run.arc.all() else np.flatnonzero(run.arc)
+        start, end = run.points[:-1][k], run.points[1:][k]
+        s, e = start[:, [first, second]], end[:, [first, second]]
         sense = np.sign(run.motion[k])
         tolerance = rule.tolerance(machine)
-        nothing = np.full(len(k), np.nan)
-        to_centre = np.stack([words[name][k] if name in words else nothing for name in "IJK"], axis=1)
-        radii = words["R"][k] if "R" in words else nothing
-        c = s + np.nan_to_num(to_centre[:, [first, second]])
+        to_centre = {axis: words[name][k] for axis, name in enumerate("IJK") if name in words}
+        c = s.copy()
+        for column, axis in enumerate((first, second)):
+            if axis in to_centre:
+                c[:, column] += np.where(np.isnan(to_centre[axis]), 0.0, to_centre[axis])
         at_start, at_end = np.hypot(*(s - c).T), np.hypot(*(e - c).T)
-        along = to_centre[:, normal]
         fault = (np.abs(c) >= given.LARGEST).any(axis=1) | (at_start < 1e-9) | (np.abs(at_start - at_end) > tolerance)
-        fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
-        if (by := np.flatnonzero(~np.isnan(radii))).size:
-            radius, chord = radii[by], np.hypot(*(e - s)[by].T)
+        if (along := to_centre.get(normal)) is not None:
+            fault |= ~(np.isnan(along) | (along == 0) & rule.zero_along)
+        if "R" in words and (by := np.flatnonzero(~np.isnan(words["R"][k]))).size:
+            radius, chord = words["R"][k][by], np.hypot(*(e - s)[by].T)
             c[by], shortage = centre_from_radius(s[by], e[by], radius, sense[by])
             reach = machine.settings.get("arc_reach", tolerance)
-            fault[by] = (shortage > reach) | (chord < 1e-3) | (radius == 0) | ~np.isnan(to_centre[by]).all(axis=1)
+            fault[by] = (shortage > reach) | (chord < 1e-3) | (radius == 0)
+            for offset in to_centre.values():
+                fault[by] |= ~np.isnan(offset[by])
         run.fault[k] |= fault
-        rises = run.points[k, normal] != run.points[k + 1, normal]
+        rises = start[:, normal] != end[:, normal]
         if rises.any() and rule.helices(machine, 0):
-            run.helix = k[rises]
+            run.helix = np.flatnonzero(run.arc)[rises]
         else:
             run.fault[k] |= rises  # the other tier remarks on it
         angle = sweep(s, e, c, sense)
-        centre = run.points[k].copy()
-        centre[:, [first, second]] = c
+        centre = np.empty_like(start)
+        centre[:, first], centre[:, second], centre[:, normal] = c[:, 0], c[:, 1], start[:, normal]
         if machine.shift is None:
             run.fault[k] |= not machine.keeps_circles
             angle = angle * machine.orientation
@@ -396,11 +404,3 @@ class Bulk:
 def _differ(a: Array, b: Array) -> Mask:
     """Which points (n, 3) are not equal; column by column, which is faster than along rows."""
     return (a[:, 0] != b[:, 0]) | (a[:, 1] != b[:, 1]) | (a[:, 2] != b[:, 2])
-
-
-def _filled(start: float, column: Array) -> Array:
-    """The last value that is not nan, going down a column (n,) that begins after `start`."""
-    at = np.flatnonzero(column == column)
-    if len(at) == len(column):
-        return column
-    return np.repeat(np.concatenate([[start], column[at]]), np.diff(at, prepend=0, append=len(column)))

@@ -14,7 +14,7 @@ import numpy as np
 from mnclab.geometry.arcs import FULL
 from mnclab.geometry.contours import Contour
 from mnclab.machine import coordinates
-from mnclab.machine.axes import leaning, reckon, turn_axes
+from mnclab.machine.axes import correct, leaning, reckon, roll_over, turn_axes
 from mnclab.machine.coordinates import CALLS, FRAME, MILLS, NOTHING, in_mm, roll, tool_axis
 from mnclab.machine.cycle import Cycle, Definition, Parameter
 from mnclab.machine.flow import put_out
@@ -280,8 +280,6 @@ def feels(m: Machine, does: str) -> dict[str, Felt]:
         return {"felt": Felt(None, by_ball=False, setter=True)}
     if does not in (PROBES, FEELS):
         return {}
-    if m.turning:
-        m.warn("the spindle turns with a touch probe in it", hint="M5 before a touch probe moves")
     return {"felt": Felt(part_to_touch(m), does == PROBES)}
 
 
@@ -335,7 +333,8 @@ def perform(m: Machine, name: str, steps: Iterable[Step], about: Place | None = 
             case Swivel():
                 turn_axes(m, step.angles, step.feed, below=step.below)
             case Rolled():
-                roll(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
+                follow_axis = roll if m.tables.kinematics is None else roll_over
+                follow_axis(m, step.cylinder, step.points, step.angles, step.ways, step.feed)
             case Each():
                 at_each(m, step.points, lambda *point, visit=step.visit: perform(m, name, visit(*point), (x, y)))
             case Call():
@@ -406,10 +405,12 @@ def write(m: Machine, step: Write) -> None:
         case "probe":
             m.tables.probe = step.value
             m.log("probe", step.value)
-        case "file" | "appended":
-            put_out(m, step.key, step.value, anew=step.what == "file")
+        case "kinematics":
+            correct(m, step.value)
         case "reckoned":
             reckon(m, step.value)
+        case "file" | "appended":
+            put_out(m, step.key, step.value, anew=step.what == "file")
         case "frame":
             m.set_frame(step.key, step.value)
         case "renamed":

@@ -216,11 +216,9 @@ class Course:
         self._counted = 0
 
     def standing(self) -> tuple[object, ...]:
-        """Where the program stands; the same before and after what neither calls, jumps, counts nor finds a program."""
-        return (
-            self.depth, self.calls, self.limit, self.in_bulk, self.returning, self.over, self.target, self.current,
-            self.begun, *self.running, *self.found,
-        )  # fmt: skip
+        """Where the program stands; the same before and after what neither calls, jumps nor finds a program."""
+        entered = len(self.nesting)
+        return self.depth, self.calls, self.returning, self.over, self.target, entered, *self.running, *self.found
 
     @property
     def program(self) -> Program:
@@ -243,14 +241,12 @@ class Course:
         block = first
         while block < stop and not (m.ended or self.over):
             done = self.bulk(block, stop)
-            if done:
-                block += done
-                continue
-            self.current = block
-            self.obey(block)
+            if not done:
+                self.current, done = block, 1
+                self.obey(block)
             if self.returning:
                 return
-            block += 1
+            block += done
             if self.target >= 0:
                 if not least <= self.target < stop:
                     return

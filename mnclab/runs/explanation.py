@@ -68,7 +68,7 @@ def stages(run: Run, moment: Moment) -> list[Stage]:
     if tool is not None and not path.lathe:
         spindle = tip + path.origin
         if path.kinematics is not None:
-            spindle = path.kinematics.references(spindle, path.rotary[last], tool.effective_length)
+            spindle = np.array(run.axes())[last, :3]
         else:
             spindle["XYZ".index(run.history.value(LOG, moment.step) or "Z")] += tool.effective_length
         note = f"tool length {unit.figure(tool.effective_length)}"

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.geometry import frames
+from mnclab.machine.axes import CHAIN
 from mnclab.machine.machine import Machine
 from mnclab.machine.setup import ROWS, Tables
 from mnclab.machine.state import Logs, Values
@@ -280,6 +281,6 @@ def tables_at_end(m: Machine, history: History, steps: int) -> Tables:
         table, _, row = name.partition(" ")
         if table in ROWS and row:
             getattr(tables, table)[int(row)] = history.value(name, last)
-    if "probe" in history:
-        tables.probe = history.value("probe", last) or tables.probe
+    for name in ("probe", CHAIN):
+        setattr(tables, name, history.value(name, last) or getattr(tables, name))
     return tables

@@ -15,7 +15,7 @@ from mnclab.machine.cutting import TILT, directions_of_rows, lifted, start_known
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
-from mnclab.path.toolpath import Index, Kind, Mask, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import Alarm, Span
 from mnclab.text.given import check_number, fitting, shown, whole
 from mnclab.text.opening import opened
@@ -122,10 +122,15 @@ def tools_that_cut(run: Run) -> tuple[dict[int, Tool], Index]:
     return {tool.number: tool for tool in tools} | run.tables.tools, numbers_of(run.toolpath, tools, which)
 
 
+def tip_lift(run: Run) -> Array:
+    """How much higher than on its path the tip of each row (n,) really is, mm: where a tool is not as its table says."""
+    return np.asarray(_held(run)[2])
+
+
 def truly_higher(run: Run, step: int) -> float:
-    """How much higher than on its path the tip really is after a step, mm: where a tool is not as its table says."""
+    """The same after a step."""
     row = int(np.searchsorted(run.toolpath.step, step, "right")) - 1
-    return float(_held(run)[2][row]) if row >= 0 else 0.0
+    return float(tip_lift(run)[row]) if row >= 0 else 0.0
 
 
 def _held(run: Run) -> tuple[list[Tool], Index, Any]:

@@ -316,6 +316,12 @@ class Run(Pictures):
         return material.tools_that_cut(self)
 
     @property
+    def tip_lift(self) -> NDArray[np.float64]:
+        """How much higher than on its path the tip of each row (n,) really is, mm: of a tool that is called with a delta length,
+        or is not as its table says."""
+        return material.tip_lift(self)
+
+    @property
     def rows_from_home(self) -> int:
         """How many rows of the path bring the tool from home to a blank, from where nobody has said; pictures leave them out."""
         return material.rows_from_home(self)

@@ -280,8 +280,19 @@ def _drop_blanks(data: Bytes, begin: Places, end: Places) -> Places:
 def numbers(data: Bytes, begin: Places, end: Places, padded: Bytes) -> tuple[Values, Mask]:
     """Values of the unsigned decimal numbers in [begin, end) and which of them are numbers at all."""
     size = end - begin
-    window = np.ndarray((len(data) + 1,), dtype="<u8", buffer=padded, strides=(1,))
-    word = window[end]  # the eight characters before the end
+    window = np.ndarray((len(data) + 1,), dtype="<u8", buffer=padded, strides=(1,))  # the eight characters before a place
+    total, below, has_point, good = _eight_digits(window[end], size)
+    good &= size > has_point
+    value = total.astype(np.float64)
+    value /= _POWER_OF_POINT[below]
+    if (long := size > 8).any():
+        value[long], good[long] = _long_numbers(data, begin[long], end[long], window)
+    return value, good
+
+
+def _eight_digits(word: NDArray[np.uint64], size: Places) -> tuple[NDArray[np.int64], NDArray[np.uint8], Mask, Mask]:
+    """Of the last `size` characters of eight: the number without its point, how many bits are below the point, whether
+    there is one, and whether all else are digits."""
     word ^= _ZEROS
     word &= _KEEP.take(size, mode="clip")  # a byte for each digit, 0 … 9; a point is 0x1E, nothing else becomes that
     point = word & _BIT_OF_POINT
@@ -292,10 +303,8 @@ def numbers(data: Bytes, begin: Places, end: Places, padded: Bytes) -> tuple[Val
     wrong = word + _u8(0x7676767676767676)
     wrong |= word
     wrong &= _HIGH
-    good = wrong == 0
-    good &= size > has_point
     below = point - _u8(1)
-    power = _POWER_OF_POINT[np.bitwise_count(below)]
+    bits = np.bitwise_count(below)
     np.minimum(below, point, out=below)  # nothing where there is no point
     below &= word
     word += (below << _u8(8)) - below  # the digits before the point move up by one
@@ -307,28 +316,17 @@ def numbers(data: Bytes, begin: Places, end: Places, padded: Bytes) -> tuple[Val
     word &= _u8(0x0000FFFF0000FFFF)
     word *= _u8(42949672960001)
     word >>= _u8(32)
-    value = word.view(np.int64).astype(np.float64)
-    value /= power
-    if (long := size > 8).any():
-        value[long], good[long] = _long_numbers(data, begin[long], end[long])
-    return value, good
+    return word.view(np.int64), bits, has_point, wrong == 0
 
 
-def _long_numbers(data: Bytes, begin: Places, end: Places) -> tuple[Values, Mask]:
-    """Numbers of more than eight characters, digit by digit; beyond what a double holds exactly, one by one."""
+def _long_numbers(data: Bytes, begin: Places, end: Places, window: NDArray[np.uint64]) -> tuple[Values, Mask]:
+    """Numbers of more than eight characters, in two halves; beyond what a double holds exactly, one by one."""
     size = end - begin
-    total = np.zeros(len(begin), dtype=np.int64)
-    digits, points, after = (np.zeros(len(begin), dtype=np.int64) for _ in range(3))
-    for k in range(min(int(size.max()), 17)):
-        inside = k < size
-        byte = data[np.minimum(begin + k, len(data) - 1)]
-        digit = inside & (byte >= 48) & (byte <= 57)
-        total = np.where(digit, total * 10 + (byte.astype(np.int64) - 48), total)
-        digits += digit
-        after += digit & (points > 0)
-        points += inside & (byte == 46)
-    good = (size <= 17) & (digits + points == size) & (points <= 1) & (digits >= 1)
-    value = total / _POWERS[np.minimum(after, 22)]
+    upper, bits, point, good = _eight_digits(window[end - 8], size - 8)
+    lower, low_bits, low_point, low_good = _eight_digits(window[end], np.full(len(size), 8))
+    good &= low_good & ~(point & low_point)
+    total = upper * np.where(low_point, 10**7, 10**8) + lower
+    value = total / (np.where(point, _POWERS[8], 1.0) * _POWER_OF_POINT[np.where(low_point, low_bits, bits)])
     for i in np.flatnonzero((size > 16) | (total >= 2**53)):
         piece = data[begin[i] : end[i]].tobytes()
         good[i] = len(piece) < 400 and piece.replace(b".", b"", 1).isdigit()

@@ -20,14 +20,14 @@ from numpy.typing import ArrayLike
 
 from mnclab.geometry.contours import Contour
 from mnclab.path.listing import figure
-from mnclab.path.toolpath import Array
+from mnclab.path.toolpath import Array, Index
 from mnclab.text.given import check_number, choice
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.cutting import UPRIGHT
 
 if TYPE_CHECKING:
+    from mnclab.workpiece.milling.gaps import Gaps
     from mnclab.workpiece.milling.moves import Moves
-    from mnclab.workpiece.milling.tilted import Gaps
     from mnclab.workpiece.workpiece import Solid, Workpiece
 
 EDGE = 1e-9  # mm beside the box about a part that still count as its edge: what turning and shifting rounds
@@ -144,7 +144,7 @@ class Clamped:
     @cached_property
     def gaps(self) -> Gaps | None:
         """What tools of other directions took away between its faces; None where it has no gaps."""
-        from mnclab.workpiece.milling.tilted import Gaps
+        from mnclab.workpiece.milling.gaps import Gaps
 
         found = tuple(self.made_by())
         return Gaps(found, self.bounds) if any(self.placement.leans or each.leans for _, each in found) else None
@@ -247,7 +247,7 @@ def crossed(body: Blank, place: Placement, x: Array, y: Array, ends: Array) -> t
     low, high = np.full((2, len(x)), ends[0])
     z = ends[0] + (ends[1] - ends[0]) * np.arange(STEPS + 1) / STEPS
 
-    def inside(some: Array, height: Array) -> Array:
+    def inside(some: Index, height: Any) -> Array:
         points = place.back(np.stack(np.broadcast_arrays(x[some], y[some], height), axis=-1))
         floor, top = body.faces(points[:, 0], points[:, 1])
         return np.asarray((floor <= points[:, 2]) & (points[:, 2] <= top))

@@ -37,8 +37,8 @@ class Cutting:
 
     `tools[which[row]]` is the tool of a row. From row `arrived` on the tool's height is known at the end of a row, from
     `known` on the start of every row: before, the tool comes from home, and only where it arrives counts. `directions`
-    (n, 3, 3) are those of the tool, from its tip to the spindle, at the start of each row, on its way and at its end; None: along Z.
-    `fixtures` hold the blank. `name` says in which program a line
+    (n, 3, 3) are those of the tool, from its tip to the spindle, at the start of each row, on its way and at its end; None:
+    along Z. `fixtures` hold the blank. `name` says in which program a line
     stands ("FILE:LINE"). `origin` (3,) is where the zero of the path stands on the machine. `reach` is "up to line 12, where
     the run stopped" if the path ends before its program, else empty. `across` is what X is in the program of a lathe, a
     "radius" or a "diameter".

@@ -88,6 +88,11 @@ EXAMPLES = {
         *(f"CYCL DEF {number}" for number in (206, 207, 209, 262, 263, 264, 265, 267)),
         "PGM 1 (section 5.11)",
     ],
+    "tnc620-kinematics": [
+        *("CfgKinematicsOpt", "TCH PROBE 450", "DATA450.KD", "KinematicsOpt measuring positions", "KinematicsOpt Hirth axes"),
+        *("KinematicsOpt backlash", "KinematicsOpt sphere measurement", "KinematicsOpt evaluation", "TCH PROBE 451"),
+        *("TCH PROBE 452", "KinematicsOpt interchangeable heads", "KinematicsOpt drift compensation"),
+    ],
     "tnc620-probing-special": [f"TCH PROBE {number}" for number in (460, 461, 462, 463, 441)],
     "turning-technology": [
         *("loop", "zigzag", "descent", "pick-up", "semi-finish pass", "equidistant", "contour scheme"),

@@ -5,7 +5,7 @@
 Needs Debian's package `linuxcnc-uspace`, which brings the module `gcode` for Debian's own Python. It prints
 one JSON object a line for each program: `ok`, `error` and `line` of a refused program, and `motion`, a list of
 
-    kind     "rapid", "feed" or "arc"
+    kind     "rapid", "feed", "arc" or "probe", which meets nothing
     line     line of PROGRAM.ngc, 1-based
     to       [x, y, z], the end point in mm, machine coordinates: G5x, G92, the rotation of G10 and the tool offset
              of G43.1 are applied
@@ -97,6 +97,9 @@ class Canon:
 
     def straight_feed(self, x, y, z, *rotary):
         self.add("feed", to=self.machine(x, y, z), feed=self.feed)
+
+    def straight_probe(self, x, y, z, *rotary):
+        self.add("probe", to=self.machine(x, y, z), feed=self.feed)
 
     def arc_feed(self, end1, end2, centre1, centre2, turns, end3, *rotary):
         end, centre = [0.0] * 3, [0.0] * 3

@@ -304,6 +304,14 @@ EXPLAINED = {
     },
     **{("tnc-620", f"TCH PROBE {n}", "Q423", "default"): (4, "in words there") for n in (421, 422)},
     **{("tnc-620", f"TCH PROBE {n}", "Q365", "default"): (1, "in words there") for n in (421, 422)},
+    # KinematicsOpt (TNC 620, chapter 18)
+    **{("tnc-620", f"TCH PROBE {n}", q, "limits"): ({}, "its choices") for n, q in ((450, "Q410"), (451, "Q406"), (451, "Q431"))},
+    ("tnc-620", "TCH PROBE 450", "Q409", "limits"): ({}, "of a number and of a text: a check"),
+    **{("tnc-620", f"TCH PROBE {n}", "Q408", "limits"): (LENGTH, "0, or a height") for n in (451, 452)},
+    **{
+        ("tnc-620", f"TCH PROBE {n}", q, "required"): (False, "the table names a value for it")
+        for n in (451, 452) for q in ("Q408", "Q432")
+    },
     # studs and face milling (TNC 620, chapter 6)
     ("tnc-620", "CYCL DEF 257", "Q376", "limits"): ({">=": -1, "<=": 360}, "-1 lets the control choose; 360 is named too"),
     **{("tnc-620", code, q, "required"): (False, "the table names a value for it") for code, q in DEFAULTED},
@@ -323,7 +331,7 @@ MARKS = {
 
 
 #: Rows that name an address in words; others say in brackets in which sub-block it stands.
-ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "X Y Z": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM"}
+ADDRESSED = {"axis and sign": "axis", "X Y Z ...": "X|Y|Z", "X Y Z": "X|Y|Z", "REFERENCE SYSTEM": "SYSTEM", "Q409/QS409": "Q409"}
 
 
 def addressed(row):

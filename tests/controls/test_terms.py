@@ -69,8 +69,8 @@ def test_each_page_shows_it_in_grey():
 
 
 def test_a_refused_code_is_refused_with_its_term():
-    with pytest.raises(Alarm, match=re.escape("TCH PROBE 450 (SALVAREA CINEMATICII; ")):
-        mnc.help("TCH PROBE 450", "tnc-620")
+    with pytest.raises(Alarm, match=re.escape("U (координата скоса по оси X)")):
+        mnc.help("U", "jnc-t01")
 
 
 def test_a_concept_says_what_it_is():

@@ -166,3 +166,32 @@ def test_tables_of_linuxcnc(module, tilting):
         np.testing.assert_allclose(tip[0] + [0, 0, pins["tool-offset"]], case["tip"], atol=1e-9)
         as_iso = Kinematics(table=(Axis(tilting, tuple(beside)), Axis("C", tuple(centre))))  # a twin that must not fit
         assert np.abs(as_iso.forward([axes], pins["tool-offset"])[0][0] + [0, 0, pins["tool-offset"]] - case["tip"]).max() > 1
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_a_shift_moves_the_part_alone(name):
+    """By it the tip is elsewhere on the part at every position; directions, and the way back, go with it."""
+    chain = CHAINS[name]
+    moved = Kinematics(chain.head, chain.table, shift=(0.3, -0.2, 0.1))
+    axes, length = poses(chain, 200), RANDOM.uniform(0, 200, 200)
+    (tip, direction), (there, same) = chain.forward(axes, length), moved.forward(axes, length)
+    assert np.abs(there - tip - moved.shift).max() < 1e-9 and (direction == same).all()
+    back = moved.inverse(there, same, length, near=axes[:, 3:])
+    assert np.abs(moved.forward(back, length)[0] - there).max() < 1e-9
+
+
+def test_an_axis_takes_the_place_of_its_name():
+    chain = CHAINS["head B, table C"]
+    new = Axis("C", centre=(1, 2, 3))
+    found = chain.with_axis(new)
+    assert found.table == (new,) and found.head == chain.head and found.with_axis(chain.table[0]) == chain
+    with pytest.raises(Alarm, match="a rotary axis"):
+        chain.with_axis(Axis("A"))
+
+
+def test_what_is_swung_by_the_head():
+    """A point of the tool (…, 3) goes round the pivot: B by 90 degrees brings what hangs below to the back of X."""
+    head = Kinematics(head=(Axis("B", centre=(0, 0, 180)),), table=(Axis("C"),))
+    assert np.allclose(head.swung(np.array([0.0, 0, -120]), np.radians([0, 90, 45])), (-300, 0, 180))
+    points = RANDOM.uniform(-50, 50, (7, 3))
+    assert np.allclose(head.swung(points, np.zeros((7, 3))), points)

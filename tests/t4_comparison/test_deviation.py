@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import mnclab
 from mnclab import Alarm
-from mnclab.comparison.diff import _nearest, deviation
+from mnclab.comparison.diff import deviation, nearest_of
 
 SAMPLES = Path(__file__).parents[2] / "data" / "programs"
 PATH = "G90 G54 G17\nG0 X-20 Y0 Z0\nG41 G1 X-10 Y-20 F300\nX0\nG3 I0 J20\nG40 G1 X10 Y0\n"
@@ -102,9 +102,9 @@ POINTS = st.lists(st.tuples(*[st.integers(-50, 50)] * 3), min_size=2, max_size=3
 
 
 @given(POINTS, st.lists(st.tuples(*[st.integers(-60, 60)] * 3), min_size=1, max_size=20))
-def test_nearest_is_the_nearest_of_all_strokes(corners, places):
+def testnearest_of_is_thenearest_of_of_all_strokes(corners, places):
     line, here = np.array(corners, dtype=float), np.array(places, dtype=float)
-    found = np.linalg.norm(_nearest(here, line[:-1], line[1:]) - here, axis=1)
+    found = np.linalg.norm(nearest_of(here, line[:-1], line[1:]) - here, axis=1)
     along = line[1:] - line[:-1]
     square = np.maximum((along**2).sum(axis=1), 1e-300)
     share = np.clip((((here[:, None] - line[:-1]) * along).sum(axis=2)) / square, 0, 1)

@@ -25,8 +25,8 @@ OTHER = {
     "per_time": True, "speed": 99.0, "turning": -1, "spindle_angle": 30.0, "surface": 200.0, "speed_limit": 3000.0,
     "tool": Tool(radius=7), "side": 1, "corner_rule": 2, "look_ahead": True, "exact": True, "exact_here": True,
     "synchronous": True, "tolerance": 0.1, "label": "G83 peck", "cut_so_far": "less than it was", "stopped": "somewhere",
-    "cylinder": 1, "from_angle": 0.5, "felt": "a part",
-    "reckoned": None, "turned": frames.shift(x=1.0),
+    "cylinder": 1, "from_angle": 0.5, "felt": "a part", "arrived": (1.0, 0.0, -1.0), "reckoned": None,
+    "turned": frames.shift(z=1.0),
 }  # fmt: skip
 #: What is altered in its place.
 WITHIN = {

@@ -28,6 +28,7 @@ SIGNS = (
     sign(r"^[^;\n]*\b[GM]\d[^;\n]*;", 0.5, "comments behind a semicolon"),
     sign(r"#[ \t]*\d+[ \t]*=|\b(?:WHILE|IF)[ \t]*\[", 4, "variables"),
     sign(r"#<[\w ]+>", 8, "a variable with a name"),
+    sign(r"(?<![A-Z])G[ \t]*38\.[2-5](?!\d)", 6, "a probing move of LinuxCNC"),
     sign(
         r"^[ \t]*+O[ \t]*+(?:<[\w. -]++>|\d++|[\[#])[^\n(]*(?:sub|endsub|call|if|while|repeat|do|return|endif|endwhile)\b",
         20, "an O word of LinuxCNC",

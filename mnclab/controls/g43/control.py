@@ -5,7 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 from mnclab.controls.g43 import SIGNS, SUFFIXES, cycles
-from mnclab.controls.g43.language import corners, modes, motion, o_words, offsets, programs, tilting, tools, variables
+from mnclab.controls.g43.language import (
+    corners,
+    modes,
+    motion,
+    o_words,
+    offsets,
+    probing,
+    programs,
+    tilting,
+    tools,
+    variables,
+)
 from mnclab.controls.g43.reading.reader import numbers, read
 from mnclab.controls.g43.refused import (
     COMPENSATED,
@@ -47,7 +58,7 @@ def trial_program(cycle: type[Cycle], words: TrialWords) -> str:
 
 #: What help lists, and hints name, before the others.
 FIRST = "G0 G1 G2 G3 G17 G18 G19 G90 G91 G54 G55 G56 G57 G58 G59 G53 G52 G92 G28 G68 G51 G10 F S G94 G95 G61 G64"
-_PARTS = (modes, motion, offsets, tilting, tools, variables, programs, corners, o_words)
+_PARTS = (modes, motion, probing, offsets, tilting, tools, variables, programs, corners, o_words)
 _ALL = {code: function for part in _PARTS for code, function in part.FUNCTIONS.items()}
 _ALL |= {code: compensated_on_linuxcnc(_ALL[code]) for code in COMPENSATED}
 _ALL |= {code: unknown_to_linuxcnc(_ALL[code]) for code in NOT_OF_LINUXCNC}

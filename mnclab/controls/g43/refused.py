@@ -11,7 +11,6 @@ from mnclab.machine.control import Function, Words
 from mnclab.machine.machine import Machine
 
 _LATHE = "it belongs to a lathe: choose control=\"jnc-t01\" or write the program for the mill"
-_PROBE = "not built: a move until a probe touches; write the places that it would find as numbers"
 _WRITTEN = "not built: write the motion itself"
 _SIDES = "write a program for each side, or for the tnc-620, which has"
 _TIP = "not built: the tip is led and the tool lies along I J K; write G43.4 and the angles A, B, C"
@@ -19,7 +18,6 @@ _TIP = "not built: the tip is led and the tool lies along I J K; write G43.4 and
 REFUSED = (
     dict.fromkeys(("G71.1", "G71.2", "G72.1", "G72.2"), _LATHE)
     | dict.fromkeys(("G7", "G96", "G32", "G33", "G34", "G33.1", "G75", "G77", "G78", "G79"), _LATHE)
-    | dict.fromkeys(("G31", "G38.2", "G38.3", "G38.4", "G38.5"), _PROBE)
     | dict.fromkeys(("G36", "G37"), "not built: measuring the tool in the program; write its length into the tool table")
     | dict.fromkeys(("G12", "G13", "G47", "G150"), _WRITTEN)
     | dict.fromkeys(("G5.2", "G5.3", "G6.2"), "not built: splines; write lines or arcs")
@@ -49,7 +47,8 @@ NOT_OF_LINUXCNC = (
     | dict.fromkeys(("G50", "G51"), "write the scaled motion itself") | dict.fromkeys(("G50.1", "G51.1"), _NO_MIRROR)
     | dict.fromkeys(("G15", "G16"), "write X and Y, or @ and ^ for a radius and an angle")
     | dict.fromkeys(("G65", "G66", "G66 again", "G67"), _NO_MACRO)
-    | {"G9": "write G61.1, and G64 after it", "G27": "", "G29": "write the motion itself", "G40.1": "write G40",
+    | {"G9": "write G61.1, and G64 after it", "G27": "", "G29": "write the motion itself",
+       "G31": "G38.2 moves until the probe touches", "G40.1": "write G40",
        "G44": "write G43.1 with the length below zero", "G54.1": "write G54 to G59.3", "M13": "write M3 and M8",
        "M14": "write M4 and M8", "M29": ""}
 )  # fmt: skip

@@ -22,7 +22,7 @@ DIALECTS: dict[str, dict[str, Any]] = {
     "fanuc": {},
     "haas": {
         "dwell_p": "point", "g51_factor": "as_written", "g10_p0": "refuse", "d_measures": "diameter",
-        "g53_motion": "modal", "g53_increment": "absolute",
+        "g53_motion": "modal", "g53_increment": "absolute", "skip_position": "tip",
     },
     "linuxcnc": {
         "macros": "linuxcnc", "main_m99": "repeat",
@@ -50,6 +50,8 @@ MOTION = (
     Setting("arc_tolerance_share", 0.0, "the part of the radius by which they may differ, up to 100 times arc_tolerance, which"
             " counts 2.54 times under G20 then (LinuxCNC: 0.001)", "", {}, "", 0, 1),
     Setting("arc_reach", 0.01, "by how much R may be less than half the way to the end (LinuxCNC: 0.00127)", "", {}, "mm", 0),
+    one_of("skip_position", "what #5061 to #5063 tell after G31", FANUC,
+           with_length="the place with the length offset of G43, as #5041 to #5043", tip="the coordinates as programmed (Haas)"),
     one_of("axis_words", "X Y Z where no motion is active: at the start and after G80", "Fanuc, Haas",
            move="G0 at the start, after G80 the motion before the cycle", refuse="an alarm (LinuxCNC)"),
     one_of("g61", "where G61 stops", "Fanuc, Haas",

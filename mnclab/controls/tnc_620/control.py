@@ -43,10 +43,12 @@ from mnclab.controls.tnc_620.probing import (
     aimed,
     calibration,
     cycle,
+    kinematics,
     line,
     measuring,
     presets,
     rotation,
+    saved_kinematics,
     single,
     tool_setter,
 )
@@ -94,6 +96,7 @@ SETTINGS = (
     *aimed.SETTINGS,
     *contour_line.SETTINGS, *cylinder.SETTINGS,
     *calibration.SETTINGS,
+    *saved_kinematics.SETTINGS, *kinematics.SETTINGS,
     Setting("max_touch_feed", 3000.0, "upper limit of the probing feed (maxTouchFeed, no. 122602)", "13.2", {}, "mm/min", 1),
     Setting("bulk", True, "obey long runs of plain blocks at once", ""),
 )  # fmt: skip
@@ -109,6 +112,7 @@ CHAPTERS = (
     area, area_cycles, train, trochoidal_slot, cylinder,
     transformations, tilting, special, engraving,
     presets, calibration, cycle, rotation, measuring, tool_setter, line, single,
+    saved_kinematics, kinematics,
     obsolete_sub_blocks, obsolete_figures,
 )  # fmt: skip
 CYCLES = CycleTable()

@@ -13,12 +13,6 @@ from mnclab.machine.cycle import Cycle
 from mnclab.text.alarm import Alarm
 from mnclab.text.program import Word
 
-PROBING = {
-    450: "Saving the kinematics",
-    451: "Measuring the kinematics",
-    452: "Preset compensation",
-}
-
 STATEMENTS = {
     "TRANS DATUM": "datum shift of a table",
     "FUNCTION PARAXMODE": "parallel axes",
@@ -49,7 +43,6 @@ INSTEAD = {
     "M104": "write CYCL DEF 247", "M112": "write RND at the corners, or cycle 32", "M114": "write M128",
     "M124": "leave it out, then every point is gone to", "M132": "leave it out, the path is the same",
     "M133": "leave it out with M132", "M142": "write the functions again that are to hold",
-    **{f"TCH PROBE {n}": "leave it out, it measures the machine" for n in PROBING},
 }  # fmt: skip
 
 BUILDER = "a cycle of the machine tool builder, whose manual alone describes it: leave it out where it moves nothing"
@@ -65,7 +58,6 @@ WORDS = {
 }  # fmt: skip
 
 WAITING = {
-    **{f"TCH PROBE {n}": title for n, title in PROBING.items()},
     **STATEMENTS,
     **{f"M{n}": title for n, title in M.items()},
 }
@@ -85,27 +77,16 @@ REFUSED = {
     **WORDS,
 }
 
-#: Q parameters by the number of the cycle that take them: named beside the refusal where a program has another one.
-_OF_PROBING = {
-    "450": "409 S409 410",
-    "451": "253 320 380 406 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 431 432",
-    "452": "253 320 380 407 408 411 412 413 414 415 416 417 418 419 420 421 422 423 432",
-}
-PARAMETERS = {
-    f"TCH PROBE {cycle}": frozenset(f"Q{number}" for number in numbers.split()) for cycle, numbers in _OF_PROBING.items()
-}
-
 #: A line `Q1=-9` without a number below a definition is one of its lines (3.1): they carry no numbers of their own.
 _BELONGS = "a line Q… without a block number belongs to the definition above it: number it to assign a variable"
 
 
 def strange_parameters(built: Mapping[str, type[Cycle]]) -> Callable[[Control, Modal, str, list[Word]], list[Remark]]:
-    """Refuses parameters that a cycle does not have; of a cycle that is not built they are only named."""
+    """Refuses parameters that a cycle does not have."""
 
     def check(control: Control, modal: Modal, code: str, words: list[Word]) -> list[Remark]:
         if code not in built:
-            strange = enumerate(words if code in PARAMETERS else ())
-            return [(k, f"{code} has no parameter {w.address}", "") for k, w in strange if w.address not in PARAMETERS[code]]
+            return []
         taken = {address for p in built[code].parameters() for address in (p.address, *p.aliases)}
         for word in words:
             if word.address[0] == "Q" and word.address not in taken:

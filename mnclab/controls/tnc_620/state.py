@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from mnclab.controls.tnc_620.probing.cycle import FastProbing
     from mnclab.controls.tnc_620.probing.tool_setter import Calibrated
     from mnclab.controls.tnc_620.tables import DatumTable
+    from mnclab.geometry.kinematics import Kinematics
     from mnclab.geometry.regions import Region
     from mnclab.machining.milling.terraces import Formula
     from mnclab.path.tool import Tool
@@ -64,6 +65,7 @@ class Memory:
     probe_input: float | None = None
     fast_probing: FastProbing | None = None  # cycle 441
     tool_setter: Calibrated | None = None  # as the last calibration found the TT
+    saved_kinematics: Mapping[str, Kinematics] | None = None  # cycle 450: records by name, once DATA450.KD was opened
 
     # datums, transformations, planes
     pole_plane: str = "XY"  # of CC, whose axes `Machine.pole` counts along

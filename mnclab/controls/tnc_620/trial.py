@@ -22,7 +22,7 @@ HOLES = ("CYCL DEF 200 DRILLING", *"Q200=2 Q201=-15 Q206=120 Q202=5 Q210=0 Q203=
 #: Cycles that machine an area or say which.
 AREA = tuple(f"CYCL DEF {n}" for n in (14, 20, 21, 22, 23, 24))
 CALL = "CYCL CALL"
-WHERE_IT_STANDS = ("TCH PROBE 3", "TCH PROBE 4")  # the touch of these begins there
+WHERE_IT_STANDS = ("TCH PROBE 3", "TCH PROBE 4", "TCH PROBE 451", "TCH PROBE 452")  # the touches of these begin there
 TOOLS = {SETS: 7, PROBES: 6, FEELS: 6}  # by what a cycle does
 SETUP = at_setter(Setter(x=10, y=5, z=-40), tt_calibrated=True)
 

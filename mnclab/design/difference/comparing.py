@@ -152,6 +152,8 @@ def _notes(workpiece: Milled, target: Target, rows: Features, tolerance: float) 
     unread = (row.feature for row in rows if row.measure.startswith("thread") and np.isnan(row.actual))
     if threads := list(dict.fromkeys(unread)):
         yield f"threads were not measured ({', '.join(threads)})"
+    if workpiece.hollow:
+        yield "what overhangs is not compared: of it the highest and the lowest places alone"
     if workpiece.many:
         yield f"of so many moves the map stands within {workpiece.error:.3g} mm"
 

@@ -22,6 +22,9 @@ GROUP = 6.0  # mm, the side of a square whose points are looked at together
 
 def sides(workpiece: Milled, x: Array, y: Array) -> tuple[Array, Array]:
     """Lower and upper side of the material at points (m,) anywhere, exact; equal where there is none."""
+    if workpiece.sweep.gaps:
+        top, floor = workpiece.surface.sides_at(x, y)
+        return floor, top
     top, floor = workpiece.blank_at(x, y)
     found, moves, boxes = np.empty(len(x)), workpiece.moves, workpiece.sweep.boxes
     for some in grouped(x, y, max(workpiece.raster.tile, GROUP)):

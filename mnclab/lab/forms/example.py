@@ -49,7 +49,7 @@ class Example:
 
     def __init__(self, control: Control, cycle: type[Cycle]) -> None:
         self.control, self.cycle = control, cycle
-        self.setup = replace(control.trial_setup or Setup(), files=control.trial_files)
+        self.setup = trial.on_its_machine(cycle, replace(control.trial_setup or Setup(), files=control.trial_files))
         if control.lathe:
             self.setup = replace(self.setup, start=(30, 0, 20))  # clear of the chuck's axis
 

@@ -277,3 +277,29 @@ def corner(a: Approach, first: Sequence[Aim], second: Sequence[Aim], now: float)
     if not a.over:
         ways[len(first) - 1] = [(second[0].start(a)[0], first[-1].start(a)[1])]
     return (yield from in_plane(a, aims, now, ways))
+
+
+def on_sphere(a: Approach, centre: tuple[float, float, float], radius: float, first: float, count: int) -> Steps:
+    """Touches of a sphere of a radius: the pole, then points of the equator from an angle on (degrees); returns the contacts.
+
+    The probe begins over the pole, goes round on an arc, and ends over the pole (TNC 620 18.4).
+    """
+    (x, y, z), out, end = centre, radius + a.away, radius + a.away - a.reach
+    pole, turn = z - a.ball, math.tau / count
+    contacts = [(yield Touch("touch the pole", x, y, pole + end, a.feed, a.ball))]
+    yield a.go("back", pole + out)
+    for k in range(count):
+        angle = math.radians(first) + k * turn
+        cos, sin = math.cos(angle), math.sin(angle)
+        if k:
+            yield Turn("round the sphere", turn, feed=a.positioning, centre=(x, y))
+        else:
+            yield a.go("beside the sphere", x=x + out * cos, y=y + out * sin)
+            yield a.go("down to the equator", pole)
+        if a.track:
+            yield Orient("turn the probe", (math.degrees(angle) + 180) % 360)
+        contacts.append((yield Touch("touch the equator", x + end * cos, y + end * sin, pole, a.feed, a.ball)))
+        yield a.go("back", pole, x + out * cos, y + out * sin)
+    yield a.go("up", pole + out)
+    yield a.go("over the pole", x=x, y=y)
+    return contacts

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from mnclab.geometry.curves import Curves, Element, beside, dot, left
 from mnclab.geometry.cutting import boxes, lengths
 from mnclab.path.corners import Prolonged
 from mnclab.path.plane import PlaneView
-from mnclab.path.toolpath import Array, Index, Mask, PathFault, Toolpath
+from mnclab.path.toolpath import Array, Index, Mask, PathFault, Toolpath, gathered
 
 # What controls differ in when they compensate the radius, and the words that all parts of the pass share.
 
@@ -123,17 +124,17 @@ class Elements(NamedTuple):
 
     @classmethod
     def of(cls, path: Toolpath, view: PlaneView, rows: Index) -> Elements:
-        take = slice(None) if len(rows) == len(path) else rows
-        side, radius = path.side[take], path.radius[take]
+        of_rows = (lambda column: column) if len(rows) == len(path) else partial(gathered, source=rows)
+        start, end, side, radius = (of_rows(column) for column in (view.start, view.end, path.side, path.radius))
         on = (side != 0) & (radius != 0)
         s = np.where(on, np.sign(side * radius), 0.0)  # a negative radius is the other side
         before = np.concatenate([[False], on[:-1]])
         turned = np.concatenate([[False], s[1:] != s[:-1]]) & on & before
         return cls(
-            rows, view.start[take, :2], view.end[take, :2], view.centre[take], view.tangent_start[take],
-            view.tangent_end[take], view.radius[take], view.sweep[take], view.arc[take],
-            on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, _corner_rules(path, take),
-            view.start[take, 2], view.end[take, 2],
+            rows, start[:, :2], end[:, :2], of_rows(view.centre), of_rows(view.tangent_start),
+            of_rows(view.tangent_end), of_rows(view.radius), of_rows(view.sweep), of_rows(view.arc),
+            on, s, np.where(on, np.abs(radius), 0.0), on & ~before, before & ~on, turned, _corner_rules(path, rows),
+            start[:, 2], end[:, 2],
         )  # fmt: skip
 
     @property
@@ -185,12 +186,12 @@ class Elements(NamedTuple):
         return Curves(start, end, self.centre[k], radius, self.sweep[k])
 
 
-def _corner_rules(path: Toolpath, take: Index | slice) -> NDArray[np.uint8]:
+def _corner_rules(path: Toolpath, rows: Index) -> NDArray[np.uint8]:
     """The rule (n,) for the corner before each element: that of its row, or straight behind one that says so."""
     prolonged = [isinstance(joint, Prolonged) for joint in path.joints]
     if not any(prolonged):
-        return path.corner_rule[take]
-    rule, joint = path.corner_rule[take].copy(), path.joint[take]
+        return gathered(path.corner_rule, rows)
+    rule, joint = path.corner_rule[rows], path.joint[rows]
     rule[1:][np.array([*prolonged, False])[joint[:-1]]] = STRAIGHT
     return rule
 

@@ -75,7 +75,8 @@ def _cycles(run: Run) -> Iterator[Alarm]:
 def _compensation(run: Run) -> Iterator[Alarm]:
     """Moves beside a contour whose tool has no radius, and lies on it; the ISO mill says it at its word G41 or G42."""
     path, message = run.toolpath, "compensates nothing"
-    idle = path.is_motion & (path.side != 0) & (path.radius == 0)
+    idle = (path.side != 0) & (path.radius == 0)
+    idle = idle & path.is_motion if idle.any() else idle
     if idle.any() and not any(message in alarm.message or "has no row in" in alarm.message for alarm in run.alarms):
         message = f"the radius compensation {message}: the radius of T{int(path.tool[idle][0])} is 0"
         yield warn_once(run, path.step[idle].tolist(), message, "call a tool, or give it its radius")
@@ -84,8 +85,8 @@ def _compensation(run: Run) -> Iterator[Alarm]:
 def _waiting(run: Run) -> Iterator[Alarm]:
     """A first move at feed without a tool, while one that T has chosen waits for its M6."""
     path = run.toolpath
-    bare = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.tool == 0)
-    if "next tool" not in run.history or not bare.any():
+    bare = path.tool == 0
+    if "next tool" not in run.history or not bare.any() or not (bare := bare & np.isin(path.kind, (Kind.LINE, Kind.ARC))).any():
         return
     first = int(path.step[bare.argmax()])
     chosen = [number for step, number in run.history.changed("next tool") if step <= first][-1:]
@@ -138,6 +139,8 @@ def still_spindle(m: Machine, path: Toolpath) -> Iterator[Alarm]:
     if m.settings["stopped_spindle"] == "accept" or not len(path):
         return
     still = (path.spindle == 0) & ((path.kind == Kind.LINE) | (path.kind == Kind.ARC))
+    if not still.any():
+        return
     still &= ~np.isin(path.tool, [number for number, tool in m.tables.tools.items() if tool.kind == "probe"])
     stopped = (path.kind == Kind.SPINDLE) & (path.label > 0)  # labels are those of cycles
     still &= ~np.isin(path.step, path.step[stopped])
@@ -167,6 +170,8 @@ def feed_of_another_unit(run: Run) -> Iterator[Alarm]:
 def _of_taps(run: Run) -> Iterator[Alarm]:
     """A warning for the threads that a tap of known pitch cuts with another one."""
     path = run.toolpath
+    if not path.synchronous.any():
+        return
     threads = path.synchronous & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & np.isfinite(path.per_rev)
     if not threads.any():
         return
@@ -203,8 +208,7 @@ def above_blank(run: Run) -> Iterator[Alarm]:
     """A warning at the first move at feed, if none of them comes to where material is."""
     stock, path = run.stock, run.toolpath
     axis, least = (0, NOISE) if path.lathe else (2, -NOISE)  # a bar that is only touched is turned to its own size
-    cuts = np.isin(path.kind, CUTS)
-    if not run.ok or stock is None or not stock.volume > 0 or not cuts.any():
+    if not run.ok or stock is None or not stock.volume > 0 or not (cuts := np.isin(path.kind, CUTS)).any():
         return
     top = stock.bounds[1, axis]
     if path.end[cuts, axis].min() < top - 1:  # the mills of a table are not as much longer as this

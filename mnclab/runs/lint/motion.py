@@ -49,8 +49,11 @@ PLACES = 400  # of a thread that are looked at for where its material begins
 def remarks(run: Run) -> Iterator[Alarm]:
     """A warning for the threads that an axis is too slow for, and one for those without room to get up to speed."""
     path, limits = run.toolpath, run.setup.limits
-    floating = np.array([FLOATING in label for label in path.labels])[path.label]
-    rows = np.flatnonzero((path.synchronous | floating) & np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > SMALL))
+    floating = np.array([FLOATING in label for label in path.labels])
+    rows = np.flatnonzero(path.synchronous | floating[path.label] if floating.any() else path.synchronous)
+    if not len(rows):
+        return
+    rows = rows[np.isin(path.kind[rows], (Kind.LINE, Kind.ARC)) & (path.lengths[rows] > SMALL)]
     if not len(rows):
         return
     speed = _speed(path, rows, limits.spindle)

@@ -55,7 +55,7 @@ def plot_proof(found: Any, number: int | None = None, view: str = "auto", size: 
     for ax, each in zip(axes, views):
         drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]
         drawn += [Line2D([place[each.right]], [place[each.up]], **mark.style()) for mark, place in marks]
-        if len(marks) == 2:
+        if len(marks) == 2 and one.kind in ("geometry", "depth", "side"):  # of rapids it would look like one
             ends = np.stack([place for _, place in marks])[:, [each.right, each.up]]
             ax.add_line(Line2D(*ends.T, color=looks.WRONG, linewidth=1.2, zorder=THERE.order))
         for artist in drawn:

@@ -19,8 +19,8 @@ from mnclab.path.tool import CHAMFER, Tool
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Blank
-from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.clamped import Clamped, Placement
+from mnclab.workpiece.collision import Collision, Collisions, deep, solid
 from mnclab.workpiece.cutting import TURNED, UPRIGHT, Cutting, frames_along
 from mnclab.workpiece.milling.judging import (
     MOST,

@@ -261,8 +261,7 @@ class Judging:
         deep = depths(self.moves, self.boxes, at, np.where(np.isnan(top), -np.inf, top))
         if (gaps := getattr(self.cutting.stock, "gaps", None)) is not None:
             met = np.flatnonzero(deep > 0)
-            low = at.low[met]
-            deep[met] = gaps.sides(at.x[met], at.y[met], low + deep[met], low)[0] - low
+            deep[met] = gaps.sides(at.x[met], at.y[met], at.low[met] + deep[met], at.low[met])[0] - at.low[met]
         ends = np.flatnonzero(np.diff(at.owner, append=-1)) + 1
         for begin, end in zip([0, *ends[:-1]], ends):
             k = begin + int(np.round(deep[begin:end], 6).argmax())

@@ -19,12 +19,13 @@ from mnclab.workpiece.cutting import Cutting
 from mnclab.workpiece.milling import volumes
 from mnclab.workpiece.milling.engaged import Engaged
 from mnclab.workpiece.milling.erosion import ERROR, ManyMoves
+from mnclab.workpiece.milling.gaps import Gaps
 from mnclab.workpiece.milling.moves import CHORD, STILL, Moves, moves_of
 from mnclab.workpiece.milling.raster import NOISE, Raster
 from mnclab.workpiece.milling.sections import Shadow, UprightSection, level, traced, upright
 from mnclab.workpiece.milling.solid import creases
 from mnclab.workpiece.milling.sweep import Mapped, Sweep
-from mnclab.workpiece.milling.tilted import Gaps, error_of, left_out, tilted_groups
+from mnclab.workpiece.milling.tilted import error_of, left_out, tilted_groups
 from mnclab.workpiece.milling.touched import Touched
 from mnclab.workpiece.part import Part
 from mnclab.workpiece.turning.revolved import overhangs
@@ -86,6 +87,7 @@ CELLS, FEWEST = 400, 4  # along the longer side by default, and across a strip
 EXACT = 20_000  # moves that are swept exactly
 PLANES = ("XY", "XZ", "YZ")
 COARSE = 150  # cells along the longer side, of the lines that show it in space
+HOLLOW = 1e-3  # mm of a column, from which on a gap is one
 ALONG = 4  # samples of an upright section for each cell, before it is looked at closer
 
 
@@ -131,7 +133,8 @@ class Milled(Engaged):
     @cached_property
     def notes(self) -> tuple[str, ...]:  # type: ignore[override]
         of_map = ("level sections, solids and pictures follow the map: a wall stands within a cell",) if self.many else ()
-        return *notes_of(self.cutting, self.sweep), *of_map
+        of_cells = ("what overhangs is shown by cells in solids and scenes, not from above",) if self.hollow else ()
+        return *notes_of(self.cutting, self.sweep), *of_map, *of_cells
 
     @cached_property
     def heights(self) -> Array:
@@ -191,8 +194,10 @@ class Milled(Engaged):
 
     def _of_gaps(self, found: NDArray[np.int64]) -> NDArray[np.int64]:
         """The same where a tilted tool has made the top."""
-        for tile in self.raster.tiles() if self.sweep.gaps else ():
-            row = self.sweep.gaps.last(*self.raster.middles(tile), self.heights[tile].ravel()).reshape(found[tile].shape)
+        if (gaps := self.sweep.gaps) is None:
+            return found
+        for tile in self.raster.tiles():
+            row = gaps.last(*self.raster.middles(tile), self.heights[tile].ravel()).reshape(found[tile].shape)
             found[tile] = np.where(row >= 0, row, found[tile])
         return found
 
@@ -211,7 +216,7 @@ class Milled(Engaged):
     def _by_tilted(self, x: Array, y: Array) -> Array:
         """How much (m,), mm, tilted tools take besides very many upright moves, at points close together."""
         assert self.sweep.gaps is not None
-        top, (_, floor) = Mapped.sides(replace(self.surface, gaps=None), x, y)[0], self.sweep.faces(x, y)
+        top, floor = replace(self.surface, gaps=None).sides(x, y)
         return self.sweep.gaps.taken(x, y, top, top, floor)
 
     @cached_property
@@ -296,11 +301,20 @@ class Milled(Engaged):
     def part(self) -> Part:
         return Touched(self.cutting.stock, self.moves, self.tilted).part
 
-    def solid(self) -> Solid:
-        """The top with its walls at their true places, the sides and the lower side of the blank."""
-        from mnclab.workpiece.milling.solid import solid_of
+    @cached_property
+    def hollow(self) -> bool:
+        """Whether tilted tools have cut so that material stands over what they took."""
+        gaps = self.sweep.gaps
+        if gaps is None:
+            return False
+        left = self.sweep.over(lambda x, y: gaps.left(x, y, *self.surface.sides(x, y)))
+        return bool((self.heights - self.floor - left > HOLLOW).any())
 
-        return solid_of(self)
+    def solid(self) -> Solid:
+        """The top with its walls at their true places, the sides and the lower side of the blank; of a hollow part cells."""
+        from mnclab.workpiece.milling.solid import of_cells, solid_of
+
+        return of_cells(self) if self.hollow else solid_of(self)
 
 
 def _places(x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:

@@ -41,6 +41,30 @@ def solid_of(workpiece: Milled, step: float | None = None) -> Solid:
     return Solid(every[used], index.reshape(-1, 3), np.concatenate([row, np.full(len(under) + len(round_), -1)]))
 
 
+BLOCKS = 120  # cells along the longest side of a hollow part
+
+
+def of_cells(workpiece: Milled) -> Solid:
+    """The closed surface of a part with overhangs: heights are exact, and upright walls right within a cell (by pyvista)."""
+    import pyvista
+
+    sweep, (low, high) = workpiece.sweep, workpiece.bounds
+    step = max(workpiece.step, float((high - low).max()) / BLOCKS)
+    x, y, z = (a + step * (np.arange(int(np.ceil((b - a) / step)) + 2) - 0.5) for a, b in zip(low.tolist(), high.tolist()))
+    px, py = (each.ravel() for each in np.meshgrid(x, y))
+    top, floor = workpiece.surface.sides_at(px, py)
+    off = np.maximum(z[:, None] - top, floor - z[:, None])  # how far each place is from the material, up or down
+    off[:, top - floor <= SAME] = step
+    for some, _, lower, upper in sweep.gaps.spans(px, py) if sweep.gaps else ():
+        for begin, end in zip(lower, upper):
+            off[:, some] = np.maximum(off[:, some], np.minimum(z[:, None] - begin, end - z[:, None]))
+    grid = pyvista.RectilinearGrid(x, y, z)
+    found = grid.contour([0.0], scalars=np.clip(off, -step, step).ravel()).triangulate()
+    points = np.asarray(found.points, dtype=np.float64).reshape(-1, 3)
+    faces = np.asarray(found.faces, dtype=np.int64).reshape(-1, 4)[:, :0:-1]
+    return Solid(points, faces, rows_at(workpiece, *points[faces].mean(axis=1).T))
+
+
 def _join(above: Lattice, below: Lattice, upper: Index, lower: Index) -> None:
     """Both sheets share a vertex wherever something goes through: the lower side there. The upper sheet has it on the side
     without material, the lower one on both."""

@@ -10,15 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.path.toolpath import Array, Index
+from mnclab.workpiece.milling.gaps import Faces, Gaps
 from mnclab.workpiece.milling.moves import Moves
 from mnclab.workpiece.milling.raster import AT_ONCE, SMALL, TILE, Raster, in_order, lowered, near
 from mnclab.workpiece.milling.swept import left_by
-from mnclab.workpiece.milling.tilted import Gaps
 
 MANY = 5_000  # moves, beyond which tiles are small
 ACROSS = 8  # tiles along the longer side of a coarse map, at least
-
-Faces = Callable[[Array, Array], tuple[Array, Array]]  # upper and lower side of the blank at points (m,)
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,9 +19,9 @@ import numpy as np
 from mnclab.path.toolpath import Array, Mask
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped
+from mnclab.workpiece.milling.gaps import Gaps, Group
 from mnclab.workpiece.milling.moves import STILL, Moves
 from mnclab.workpiece.milling.raster import lowered
-from mnclab.workpiece.milling.tilted import Gaps, Group
 from mnclab.workpiece.part import Part
 
 FAR = 8.0  # mm, beyond which a distance is no longer looked for, and only bounded from below

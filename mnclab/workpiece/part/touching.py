@@ -23,6 +23,7 @@ FAR = 10.0  # gaps: a contact that is not farther off is gone for
 ASIDE = 10.0 ** -np.arange(1, 9)  # of a span: how far beside the place that the secant tells others are tried
 EVENLY = np.arange(1, 8) / 8
 SMALL = 1e-5  # mm, between places whose distances are compared for a direction
+FREE = 2e-10  # mm, a gap that is surely one: numbers are no better
 OFF = 1e-4  # mm: a foot farther from the surface than this is none
 
 
@@ -74,6 +75,21 @@ def contact(
         there = np.append(rest * (1 - closer[closer * rest > TOUCHING]), rest + TOUCHING / 4)
         nearer = free + there if rest < FAR * room else np.zeros(0)
     return free if free <= reach + TOUCHING else None
+
+
+def released(part: Part, start: ArrayLike, direction: ArrayLike, radius: float, reach: float) -> float | None:
+    """How far a ball that touches, or that stands in the material, travels from `start` along `direction` until it is free:
+    distance(centre) = radius. None if it still touches after `reach`."""
+    origin, ahead = np.asarray(start, dtype=float), unit_vector(direction, "the direction of a probe")
+    inside = Part(lambda p: radius + FREE - part(p), at_once=part.at_once, steep=part.steep)
+    free = contact(inside, origin, ahead, 0.0, reach)
+    touches = 0.0
+    while free is not None and free - touches > SETTLED and touches < (half := (touches + free) / 2) < free:
+        if float(part(origin + half * ahead)[0]) - radius > SETTLED:
+            free = half
+        else:
+            touches = half
+    return free
 
 
 def _settled(

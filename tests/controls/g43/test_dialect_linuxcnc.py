@@ -205,8 +205,7 @@ def test_the_oriented_stop():
 @pytest.mark.parametrize(("text", "alarm"), [
     ("G1 @5 ^30", "@ is a distance of polar coordinates on LinuxCNC: not built (write X and Y)"),
     ("^30", "^ is an angle of polar coordinates on LinuxCNC: not built (write X and Y)"),
-    ("G38.2 Z-5", "G38.2 is refused: not built: a move until a probe touches; write the places that it would find as"
-                    " numbers"),
+    ("G31 Z-5", "G31: LinuxCNC does not know this code (G38.2 moves until the probe touches)"),
     ("G72 Q100 X1", "G72 is refused: not built: holes along a line (Haas), write G81 and their places; on LinuxCNC a lathe"
                     " roughs with it"),
     ("G71.1 Q100 X1",

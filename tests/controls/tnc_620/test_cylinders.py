@@ -411,6 +411,27 @@ def test_called_twice_and_at_once():
     assert found.toolpath.rotary[-1].tolist() == [0, 0, 0]
 
 
+@pytest.mark.parametrize(("made", "depths"), [(C27, (21, 18)), (C28, (21, 18))])
+def test_on_a_machine_whose_axes_are_known(made: str, depths: tuple[int, ...]) -> None:
+    """The head lies along X, the table turns: on the part the tip goes round Z at the radius of each level, the tool always
+    points to the axis, and a way of 25 angle by Z is the contour of the same program without a kinematics."""
+    tools = {number: mnc.Tool(number=number, radius=tool.radius, length=70) for number, tool in TOOLS.items()}
+    found = mnc.run(made, "tnc-620", mnc.Setup(tools=tools, kinematics="head-b-table-c"))
+    assert found.ok, found.alarms
+    plain, path = run(made).toolpath, found.toolpath
+    for label, depth in zip(("level 1 of 2, contour", "level 2 of 2, contour"), depths, strict=True):
+        rows, before = ([k for k, n in enumerate(each.label) if label in each.labels[n]] for each in (path, plain))
+        if not rows:
+            continue
+        x, y, z = path.end[rows].T
+        assert np.hypot(x, y) == pytest.approx(depth, abs=0.011)
+        assert path.directions[rows] == pytest.approx(np.stack([x, y, 0 * z], axis=1) / np.hypot(x, y)[:, None], abs=1e-9)
+        ways = np.stack([25 * np.arctan2(y, x), z], axis=1)
+        known = np.stack([25 * plain.rotary[before, 2], plain.end[before, 2]], axis=1)
+        for point in known:
+            assert np.linalg.norm(ways - point, axis=1).min() < 1e-9
+
+
 def test_many_plain_blocks_in_degrees():
     """What is obeyed in bulk elsewhere counts in degrees here, too."""
     contour = "\n".join(f"L X+{k} Y+{k}" for k in range(60))

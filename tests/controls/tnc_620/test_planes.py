@@ -309,6 +309,23 @@ def test_a_datum_that_leans_leans_the_plane() -> None:
     assert level.toolpath.end[-1] == pytest.approx(leans @ (3, 4, 5))
 
 
+@pytest.mark.parametrize("leads", ["", "FUNCTION TCPM F TCP AXIS POS\n"])
+def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
+    """C_OFFS 20: the part was measured with C at 20 of the machine, so the plane lies turned by 20 on the part, and C shows 90
+    where it stands at 110; TABLE ROT and the end of the tilt count from there too."""
+    presets = {0: mnc.Datum(5, 6, 7, c=20)}
+    tilt = f"{leads}PLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX SEQ+\nL X+3 Y+4 Z+5 FMAX"
+    found = run(tilt, kinematics="table-ac", presets=presets)
+    assert stands(found) == pytest.approx([30, 0, 90])
+    assert np.array(found.axes())[-1, 3:] == pytest.approx([30, 0, 110])
+    place = about("C", 20) @ (np.array([5, 6, 7]) + about("B", 30) @ (3, 4, 5))
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx(place)
+    back = run(f"{tilt}\nPLANE RESET TURN FMAX\nL X+1 Y+2 Z+3 FMAX", kinematics="table-ac", presets=presets)
+    assert np.array(back.axes())[-1] == pytest.approx([6, 8, 90, 0, 0, 20])
+    level = "PLANE SPATIAL SPA+0 SPB+0 SPC+15 TURN FMAX TABLE ROT\nL X+3 Y+0 Z+5 FMAX"
+    assert np.array(run(level, kinematics="table-ac", presets=presets).axes())[-1, 5] == pytest.approx(35)
+
+
 def test_shift_rotation_and_mirror_behind_the_tilt() -> None:
     found = run(
         "PLANE SPATIAL SPA+0 SPB+40 SPC+0 TURN FMAX\nTRANS DATUM AXIS X+10 Y-5\nCYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+30\n"
@@ -389,3 +406,55 @@ def test_a_sequence_that_the_limits_forbid_names_itself() -> None:
 def test_plain_moves_go_on_with_a_tool_that_leans() -> None:
     found = run("PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY\nL X+5 Y+1 FMAX\nCC X+0 Y+0\nC X+5 Y+1 DR+ F100 M3", kinematics="table-ac")
     assert len(found.toolpath.motion) == 2
+
+
+def probing(form: str, machine: str) -> mnc.Run:
+    """Cycle 421 in the plane A20 B10, square to which a hole of 40.5 lies at (0.3, -0.2)."""
+    frame = np.eye(4)
+    frame[:3, :3] = about("B", 10) @ about("A", 20)
+    made = (mnc.part.plane((0, 0, 0), (0, 0, 1)) - mnc.part.hole((0.3, -0.2, 0), 40.5, 50)).placed(frame)
+    words = "Q273=0 Q274=0 Q262=40 Q325=0 Q247=90 Q261=-5 Q320=0 Q260=20 Q301=0 Q275=0 Q276=0 Q279=0 Q280=0 Q281=0 Q309=0 Q330=0"
+    tilt = f"L Z+200 R0 FMAX\nPLANE SPATIAL SPA+20 SPB+10 SPC+0 {form}\nL Z+80 R0 FMAX"
+    return mnc.run(
+        f"TOOL CALL 7 Z\n{tilt}\nTCH PROBE 421 X\n" + words.replace(" ", "\n") + "\n", "tnc-620",
+        tools={7: mnc.Tool(radius=2, length=60, kind="probe")}, part=made,
+        kinematics=machine, start=(0, 0, 300),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_probing_in_the_tilted_plane(machine: str) -> None:
+    found = probing("TURN FMAX", machine)
+    assert found.ok and [found.variables[name] for name in ("Q151", "Q152", "Q153")] == pytest.approx([0.3, -0.2, 40.5], abs=1e-6)
+    (alarm,) = probing("STAY", machine).alarms
+    leans = math.degrees(math.acos(math.cos(math.radians(20)) * math.cos(math.radians(10))))
+    assert alarm.message == f"TCH PROBE 421 needs the tool square to the working plane, and it leans by {leans:.4g} degrees"
+    assert alarm.span[:2] == (5, 1)
+
+
+@pytest.mark.parametrize("machine", ["table-ac", "head-b-table-c"])
+def test_a_table_that_aligns_the_part_turns_it(machine: str) -> None:
+    """Cycle 1410 finds an edge under 2 degrees and turns the table by them: X of the program runs along the edge then."""
+    made = mnc.part.box((0, 0, -40), (100, 60, 0)).placed(np.block([[about("C", 2), np.zeros((3, 1))], [0, 0, 0, 1]]))
+    words = (
+        "Q1100=10 Q1101=0 Q1102=-5 Q1103=90 Q1104=0 Q1105=-5 Q372=2 Q320=0 Q260=100 Q1125=2 Q309=0 Q1126=1 Q1120=1 Q1121=2"
+    )
+    program = "L Z+100 R0 FMAX\nL X+50 Y-60 FMAX\nTCH PROBE 1410 X\n" + words.replace(" ", "\n") + "\nL X+0 Y+0 FMAX\nL X+50 FMAX"
+    found = mnc.run(
+        f"TOOL CALL 7 Z\n{program}\n", "tnc-620", tools={7: mnc.Tool(radius=2, length=60, kind="probe")}, part=made,
+        kinematics=machine, start=(0, 0, 300),
+    )  # fmt: skip
+    assert found.ok and float(found.axes().C[-1]) == pytest.approx(2)
+    one, other = found.toolpath.end[-2:]
+    assert other - one == pytest.approx(about("C", 2) @ (50, 0, 0))
+    early = 2 * (1 / math.cos(math.radians(2)) - 1)  # by which the ball meets a slanted edge before its pole does
+    assert one[1] == pytest.approx(one[0] * math.tan(math.radians(2)), abs=early + 1e-9)
+
+
+def test_a_block_explained_names_the_positions() -> None:
+    program = "L Z+60 FMAX\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 TURN FMAX\nL X+1 Y+2 Z+3 FMAX\nPLANE RESET STAY"
+    found = run(program, kinematics="table-ac")
+    assert "tilted plane: A30 C0, tool axis (0, -0.5, 0.866)" in str(found.explain(3))
+    place = np.array(found.axes())[found.toolpath.line == 4][-1, :3]
+    last = found.explain(4).stages[-1]
+    assert last.name == "spindle, machine coordinates" and last.point == pytest.approx(place)

@@ -196,6 +196,14 @@ def test_the_tool_turns_in_the_plane_of_its_directions() -> None:
         assert (np.abs(ways @ normal).max() < 1e-9) == flat
 
 
+def test_a_tool_that_would_pass_upright_makes_an_axis_jump() -> None:
+    """From A20 to A-20 in one plane the tool passes Z; to A20 C180, the same direction, C would turn by half a turn there."""
+    begin = f"{TCPM} PATHCTRL VECTOR\nL X+40 Y+10 Z+50 A+20 C+0 FMAX\n"
+    assert run(f"{begin}L A-20 F600", kinematics="table-ac").ok
+    alarm = run(f"{begin}L A+20 C+180 F600", kinematics="table-ac", ok=False).alarms[0]
+    assert alarm.message.startswith("the rotary axes would have to jump on the way") and alarm.span[:2] == (4, 3)
+
+
 def test_an_arc_is_one_of_the_part_with_a_tool_that_leans() -> None:
     found = run("L A+30 C+20 FMAX M128\nL X+20 Y+0 Z+10 FMAX\nCC X+0 Y+0\nC X+20 Y+0 DR+ F500 M3", kinematics="table-ac")
     assert found.toolpath[-1].kind == Kind.ARC and abs(found.toolpath[-1].sweep) == pytest.approx(math.tau)

@@ -59,13 +59,6 @@ Q397=0
 Q399=1
 Q400=1
 
-; == tch-probe-450-refused-kinematics
-; 4:1 alarm: TCH PROBE 450 is refused: Saving the kinematics, not built yet: leave it out, it measures the machine
-0 BEGIN PGM A MM
-1 TOOL CALL 1 Z S1000 F100
-2 TCH PROBE 450 X
-Q263=1
-
 ; -- cycle-460
 BEGIN PGM A MM
 TOOL CALL 6 Z

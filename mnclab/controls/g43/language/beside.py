@@ -22,6 +22,7 @@ NEEDS = {
 #: Codes whose axis words are no motion: a second code that moves has none left.
 OWN = ("G28", "G30")
 STRAIGHT = ("G0", "G1")
+MOVING = (*STRAIGHT, "G2", "G3", "G38.2", "G38.3", "G38.4", "G38.5")
 MOST_FUNCTIONS = 4
 
 
@@ -40,7 +41,7 @@ def check(modal: Modal, words: list[Word]) -> None:
         if code in codes and not addresses.keys() & set(needed):
             refuse(f"{code} {' '.join(needed)} ({what}) is missing", codes[code])
     axis = next((addresses[letter] for letter in "XYZ" if letter in addresses), None)
-    motion = next((code for code in ("G0", "G1", "G2", "G3") if code in codes), "")
+    motion = next((code for code in MOVING if code in codes), "")
     if axis and "G80" in codes and not motion:
         refuse(f"{axis.rounded} stands beside G80, which moves nothing", axis, "write G0 or G1 (LinuxCNC)")
     if "G53" in codes and not (motion in STRAIGHT or not motion and modal.motion in STRAIGHT and axis and not modal.active):

@@ -150,6 +150,10 @@ def together(control: Control, modal: Modal, keyword: str, words: list[Word]) ->
     if circle and len(codes) == 1 and (holes := {"G70", "G71"} & codes.keys()):
         hint = "not built; write a cycle and the places of its holes"
         raise Alarm(f"{min(holes)} {circle.rounded} drills holes on a circle (Haas)", codes[min(holes)].span, hint=hint)
+    if (skip := codes.get("G31")) and modal.dialect == "haas" and not any(word.address == "F" for word in words):
+        raise Alarm("G31 F (feed rate) is missing", skip.span, hint="on a Haas it stands in the block of G31")
+    if skip and modal.active:
+        raise Alarm(f"G31 cannot stand while {modal.active.code} is active", skip.span, hint="write G80 first")
     arcs = [code for code in ARCS if code in codes] or [code for code in ARCS if modal.motion == code and axes]
     for code in LENGTHS:
         if code in codes and arcs and not {"G0", "G1"} & codes.keys():

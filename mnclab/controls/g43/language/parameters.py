@@ -110,6 +110,10 @@ ANGLES = {f"#{5230 + 20 * k}": row for k, row in enumerate(SYSTEMS)}
 REFERENCES = {f"#{first + k}": (number, k) for first, number in ((5161, 1), (5181, 2)) for k in range(3)}
 SHIFT = {f"#{5211 + k}": k for k in range(3)}
 
+PLACE = tuple(f"#{number}" for number in range(5061, 5067))  # of a probe: X Y Z A B C, in the unit of the program
+FOUND = "#5070"  # whether it found what it was sent for
+PROBED = (*PLACE, FOUND)
+
 
 def offset(m: Machine, row: int, k: int) -> float:
     """An axis of a work offset, mm."""

@@ -250,8 +250,10 @@ def program_number(m: Machine, words: Words) -> None:
 
 def without_end(m: Machine) -> None:
     """What LinuxCNC says of a program without an end: rs274 goes all its way, and then calls it a fault."""
-    tape = [mark.start() for mark in _TAPE.finditer(course(m).programs[0].text)]
-    if m.settings["dialect"] == "linuxcnc" and len(tape) < 2:
+    if m.settings["dialect"] != "linuxcnc":
+        return
+    tape = _TAPE.findall(course(m).programs[0].text)
+    if len(tape) < 2:
         missing = "a second %" if tape else "M2, M30 or two lines %"
         m.warn(f"the program ends without {missing}: LinuxCNC stops here with an error", None, "write M2 at the end")
 

@@ -267,7 +267,7 @@ def give_own(m: Machine, word: Word, name: str, value: float | None, message: st
         if m.side:
             m.alarm("a work offset cannot change under radius compensation", word, hint="write G40 first")
         write_offset(m, name, value * m.variable_unit, Words((word,), name))
-    elif name in PREASSIGNED:
+    elif name in PREASSIGNED or name in parameters.PROBED:
         m.alarm(f"{name} is kept by the control and cannot be written", word)
     else:
         m.alarm(f"{name} is a variable of the control that is not built", word, "#1 to #999 are free")
@@ -342,7 +342,7 @@ NUMBERED: dict[str, Reading] = (
     | {"#4006": lambda m: 21.0 if m.variable_unit == 1 else 20.0, "#4009": active_cycle, "#4120": chosen_tool}
     | {"#4109": lambda m: (m.feed or 0.0) / m.variable_unit, "#4119": lambda m: m.speed}
     | {"#5400": lambda m: float(m.tool.number), "#5410": lambda m: 2 * m.tool.radius / m.variable_unit}
-    | {f"#{5401 + k}": partial(length_offset, k=k) for k in range(3)}
+    | {f"#{first + k}": partial(length_offset, k=k) for first in (5081, 5401) for k in range(3)}
     | {f"#{5420 + k}": partial(parameters.here, k=k) for k in range(3)}
     | {"#5220": active_row, "#4107": lambda m: float(memory(m).corrector)}
     | {"#4111": lambda m: float(memory(m).length_corrector or 0)}

@@ -105,10 +105,10 @@ class _Reader:
         first, last = self.tape(found)
         special = found.count > MOST_WORDS
         letter, value = found.letter, found.value
-        odd = (letter == ord("O")) | ((letter == ord("G")) & np.isin(value, CALLS))
-        odd |= (letter == ord("N")) & ((value == 0) | (value % 1 > 0))
-        if odd.any():
-            special[found.line[odd]] = True
+        special[found.line[letter == ord("O")]] = True
+        for address, is_odd in (("G", lambda v: np.isin(v, CALLS)), ("N", lambda v: (v == 0) | (v % 1 > 0))):
+            words = np.flatnonzero(letter == ord(address))
+            special[found.line[words[is_odd(value[words])]]] = True
         special[:first] = special[last:] = True
         self.jumps = self.goes_to(found)
         self.found = found.without(special) if special.any() else found

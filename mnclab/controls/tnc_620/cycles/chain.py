@@ -13,6 +13,8 @@ import math
 from collections.abc import Generator, Iterator, Mapping
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from mnclab.controls.tnc_620.state import Place, active_preset, memory
 from mnclab.geometry.frames import Matrix
 from mnclab.machine.machine import Machine
@@ -24,6 +26,7 @@ from mnclab.text.program import Word
 SHIFT, MIRROR, ROTATION, SCALE, FACTORS = "shift", "mirror", "rotation", "scale", "axis scales"
 KINDS = (SHIFT, MIRROR, ROTATION, SCALE, FACTORS)
 TILT = "tilt"
+CARRIED = "rotary offset"
 TILTED = " (tilted)"
 ALSO = " (before)"  # what outlived its tilt, beside one of its kind
 
@@ -83,9 +86,35 @@ def count_with(m: Machine, to: Place | None) -> Iterator[Write]:
     yield Write("memory", to, "tilt_axes")
     if m.tables.kinematics is None:
         return
+    yield from carry(m)
     if m.reckoned is not None:
         yield Write("reckoned", to or (0.0, 0.0, 0.0))
     yield Write("history", None if to is None else solved(m, to), "tilted plane")
+
+
+def carry(m: Machine) -> Iterator[Write]:
+    """A table that counts from elsewhere (C_OFFS of the preset) has turned the part by that before it was measured: where
+    coordinates are those of the part, in a tilted plane and while the tip is led, they are turned by it, too."""
+    on_the_part = memory(m).tilt_axes is not None or memory(m).led is not None
+    matrix = measured_at(m) if on_the_part else None
+    if matrix is not None or CARRIED in m.frames:
+        yield Write("frame", matrix, CARRIED)
+
+
+def measured_at(m: Machine) -> Matrix | None:
+    """From where a place was measured with the table at its offsets to where it is on the part; None where that is the same."""
+    if (kinematics := m.tables.kinematics) is None:
+        return None
+    angles = np.zeros(3)
+    for axis in kinematics.table:
+        angles[axis.number] = math.radians(offset(m, axis.number))
+    return kinematics.carried(angles, 0.0) if angles.any() else None
+
+
+def before_tilt(m: Machine) -> Matrix:
+    """From the untilted system to the part."""
+    before, outer = m.frames.before(TILT), measured_at(m)
+    return before if outer is None or CARRIED in m.frames else np.asarray(outer @ before)
 
 
 def solved(m: Machine, to: Place) -> str:

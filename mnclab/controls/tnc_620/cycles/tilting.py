@@ -95,7 +95,7 @@ class WorkingPlane(Cycle):
             yield from over(m)
             return
         if m.settings["tilt_angles"] == "axes":
-            to = yield from begin_by_axes(m, self.code, with_axes(m, m.rotary, self.angles))
+            to = yield from begin_by_axes(m, with_axes(m, m.rotary, self.angles))
         else:
             to = yield from begin(m, self.code, frames.spatial(*map(math.radians, self.angles)), self.angles)
         if self.rotary_feed is not None:
@@ -125,28 +125,17 @@ def begin(
     m: Machine, code: str, matrix: Matrix, angles: Place, choice: Choice = SHORTER
 ) -> Generator[Step, Any, Place]:  # fmt: skip
     """Tilt by a matrix, of spatial `angles` (degrees) that system data tell; returns where A, B, C must stand, rad."""
-    refuse_offset(m, code)
     to = solution(m, code, matrix, choice)
     return (yield from _begin(m, matrix, angles, to, False))
 
 
-def refuse_offset(m: Machine, code: str) -> None:
-    """A rotary axis of a machine with kinematics does not count from elsewhere where the plane tilts."""
-    kinematics = m.tables.kinematics
-    for axis in kinematics.sequence if kinematics is not None else ():
-        if degrees := chain.offset(m, axis.number):
-            what = f"{code} under a preset with {axis.name}_OFFS {degrees:g} is not built yet"
-            m.alarm(what, hint="a basic rotation (SPC of the preset) turns the plane instead")
-
-
-def begin_by_axes(m: Machine, code: str, to: Place) -> Generator[Step, Any, Place]:
+def begin_by_axes(m: Machine, to: Place) -> Generator[Step, Any, Place]:
     """Tilt so that the plane is that of the tool where A, B, C stand at positions, rad."""
-    refuse_offset(m, code)
     tool = np.eye(4)
     tool[:3, :3] = rotary_axes(m).orientation(to)
     matrix = tool
     if m.tables.kinematics is not None:  # what turns the datum does not turn these axes, and a mirror image stays one
-        before = m.frames.before(chain.TILT)[:3, :3]
+        before = chain.before_tilt(m)[:3, :3]
         matrix = np.eye(4)
         matrix[:3, :3] = np.linalg.solve(before / np.linalg.norm(before, axis=0), tool[:3, :3]) @ m.frames[chain.MIRROR][:3, :3]
     a, b, c = (math.degrees(angle) if axis in rotary_axes(m).names else 0.0 for axis, angle in zip(NAMES, to, strict=True))
@@ -183,12 +172,12 @@ def solution(m: Machine, code: str, matrix: Matrix, choice: Choice = SHORTER) ->
     """Where A, B and C must stand, rad, for the tool to lie along Z of a tilted system: of both ways within the limits that of
     SEQ or SYM, else the shorter one. An Alarm where there is none."""
     axes, using = rotary_axes(m), memory(m).tilting
-    tool, near = (m.frames.before(chain.TILT) @ matrix)[:3, 2], np.array(m.rotary)
+    tool, near = (chain.before_tilt(m) @ matrix)[:3, 2], np.array(m.rotary)
     free = axes.free(tool, near, using) if choice.free else None
-    if free is not None and choice.free == "COORD":
-        near[free.number] = 0.0
-    elif free is not None and not (m.tables.kinematics and free in axes.head):
-        near[free.number] = math.atan2(matrix[1, 0], matrix[0, 0]) if matrix[2, 2] > 1 - LEVEL else 0.0
+    if free is not None and (choice.free == "COORD" or not (m.tables.kinematics and free in axes.head)):
+        turns = choice.free == "TABLE" and matrix[2, 2] > 1 - LEVEL
+        near[free.number] = math.atan2(matrix[1, 0], matrix[0, 0]) if turns else 0.0
+        near[free.number] += math.radians(chain.offset(m, free.number)) if m.tables.kinematics else 0.0
     both = axes.solutions(tool, near, using)
     allowed = both.copy()
     if choice.way is not None:

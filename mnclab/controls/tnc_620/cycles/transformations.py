@@ -183,3 +183,4 @@ class Presetting(Cycle):
         yield from chain.reset(m)
         yield Write("memory", row, "preset")
         yield Write("chosen datum", m.tables.presets.get(row, Datum()), "preset")
+        yield from chain.carry(m)

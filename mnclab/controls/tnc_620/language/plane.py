@@ -130,7 +130,7 @@ def plane_axial(m: Machine, words: Words) -> None:
         here = chain.to_angle(m, k, math.degrees(m.rotary[k]))
         degrees[k] = chain.to_rotary(m, k, counted(m, word, here))
     a, b, c = degrees
-    to = perform(m, words.code, tilting.begin_by_axes(m, words.code, tilting.with_axes(m, before, (a, b, c))), ORIGIN)
+    to = perform(m, words.code, tilting.begin_by_axes(m, tilting.with_axes(m, before, (a, b, c))), ORIGIN)
     turn(m, words, how, to)
 
 
@@ -143,7 +143,7 @@ def plane_reset(m: Machine, words: Words) -> None:
     if m.tables.kinematics is None:
         to = tilting.axis_positions(m, words.code)
     else:
-        to = tilting.with_axes(m, m.rotary, (0.0, 0.0, 0.0))
+        to = tilting.with_axes(m, m.rotary, (chain.offset(m, 0), chain.offset(m, 1), chain.offset(m, 2)))
     turn(m, words, how, to)
 
 
@@ -175,7 +175,7 @@ def angle(m: Machine, words: Words, address: str) -> float:
 
 def level(m: Machine) -> bool:
     """Whether Z of the untilted system is that of the machine, as far as its kinematics is known."""
-    x, y, z = m.frames.before(TILT)[:3, 2].tolist()
+    x, y, z = chain.before_tilt(m)[:3, 2].tolist()
     return m.tables.kinematics is None or math.hypot(x, y) < tilting.LEVEL * abs(z)
 
 

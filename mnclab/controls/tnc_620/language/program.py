@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles.chain import cancel
+from mnclab.controls.tnc_620.cycles.chain import CARRIED, cancel
 from mnclab.controls.tnc_620.language import values
 from mnclab.controls.tnc_620.language.flow import label_name
 from mnclab.controls.tnc_620.language.functions import put_out_tables
@@ -14,6 +14,7 @@ from mnclab.controls.tnc_620.language.values import above_zero, counted, first, 
 from mnclab.controls.tnc_620.reading.words import INCH
 from mnclab.controls.tnc_620.state import count_in, memory
 from mnclab.geometry.contours import Contour
+from mnclab.geometry.frames import FrameChain
 from mnclab.geometry.regions import Region
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
@@ -35,6 +36,8 @@ def start(m: Machine) -> None:
     """The active preset is the datum of the program (setting "preset")."""
     row = m.settings["preset"]
     preset = m.tables.presets.get(row, Datum())
+    if m.tables.kinematics is not None:
+        m.put(frames=FrameChain((CARRIED, *m.control.frames)))
     m.select_datum(preset, "preset")
     values.start(m)
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.controls.tnc_620.cycles.chain import to_angle, to_rotary
+from mnclab.controls.tnc_620.cycles.chain import carry, to_angle, to_rotary
 from mnclab.controls.tnc_620.cycles.tilting import rotary_axes
 from mnclab.controls.tnc_620.language.auxiliary import rate
 from mnclab.controls.tnc_620.language.values import counted, first, one_of
@@ -22,6 +22,7 @@ from mnclab.machine.axes import chain, reckon, swing, travel, turn_axes, turning
 from mnclab.machine.control import FunctionTable, Setting, Words
 from mnclab.machine.coordinates import AXES, STILL, Angles, angles, set_angles
 from mnclab.machine.machine import Machine
+from mnclab.running.cycles import perform
 from mnclab.text.program import Word
 
 FUNCTIONS = FunctionTable()
@@ -183,6 +184,7 @@ def let_go(m: Machine, words: Words) -> None:
         return
     refuse_side(m, words)
     memory(m).led = None
+    perform(m, words.code, carry(m))
     reckon(m, memory(m).tilt_axes or (0.0, 0.0, 0.0))
 
 
@@ -205,6 +207,7 @@ def tcpm(m: Machine, words: Words) -> None:
 def lead(m: Machine, words: Words, how: Led) -> None:
     refuse_side(m, words)
     memory(m).led = how
+    perform(m, words.code, carry(m))
     reckon(m, None)
 
 

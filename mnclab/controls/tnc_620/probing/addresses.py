@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from functools import partial
 
-from mnclab.controls.tnc_620.cycles.addresses import angle, choice, coordinate, count, distance, length
+from mnclab.controls.tnc_620.cycles.addresses import (
+    POSITIONING,
+    angle,
+    choice,
+    coordinate,
+    count,
+    distance,
+    feed,
+    length,
+)
 from mnclab.machine.cycle import param
 
 #: Names of parameters that follow each other in many cycles.
@@ -132,3 +141,47 @@ error_reaction = partial(choice, "Q309", "reaction to a violated tolerance", REA
 align_rotary_axis = partial(choice, "Q1126", "how rotary axes are aligned", ALIGNING, example=0)
 transfer_position = partial(choice, "Q1120", "position that corrects the preset", choices=TRANSFERS, example=0)
 confirm_rotation = partial(choice, "Q1121", "rotation that is taken over", choices=ROTATIONS, example=0)
+
+# --- the cycles of KinematicsOpt (18.4, 18.5): a sphere, and each rotary axis ------------------------------------------
+OPTIMIZING: dict[float, str] = {
+    0: "check: nothing is changed", 1: "optimize the position", 2: "optimize angle and position",
+    3: "correct the machine datum, optimize angle and position",
+}  # fmt: skip
+SPHERE_PRESETS: dict[float, str] = {
+    0: "it was set by hand", 1: "before the measurement", 2: "after the measurement", 3: "before and after the measurement",
+}  # fmt: skip
+MEASURED_BY = "sphere_radius clearance retraction_height feed_pre_positioning reference_angle"
+OF_AXES = " ".join(f"start_angle_{k} end_angle_{k} incidence_angle_{k} measuring_points_{k}" for k in "abc")
+
+_start = partial(angle, at_least=-359.999, at_most=359.999, example=-90)
+_end = partial(_start, example=90)
+_incidence = partial(_start, note="while the other rotary axes are measured", example=0)
+_points = partial(count, at_most=12, note="0: it is not measured", example=0)
+mode = partial(choice, "Q406", meaning="mode", choices=OPTIMIZING, example=1)
+sphere_radius = partial(length, "Q407", "exact radius of the calibration sphere", at_least=0.0001, at_most=99.9999, example=12.5)
+retraction_height = partial(
+    length, "Q408", meaning="retraction height", default=0, example=0,
+    note="untilted, before rotary axes turn; 0: none, the probe goes round the sphere",
+)  # fmt: skip
+feed_pre_positioning = partial(
+    feed, "Q253", meaning="feed rate for pre-positioning", at_least=0.0001, at_most=99999.9999, also=POSITIONING, predef=True,
+    example=750,
+)  # fmt: skip
+start_angle_a = partial(_start, "Q411", meaning="start angle of the A axis")
+end_angle_a = partial(_end, "Q412", meaning="end angle of the A axis")
+incidence_angle_a = partial(_incidence, "Q413", meaning="angle of incidence of the A axis")
+measuring_points_a = partial(_points, "Q414", meaning="measuring points of the A axis")
+start_angle_b = partial(_start, "Q415", meaning="start angle of the B axis")
+end_angle_b = partial(_end, "Q416", meaning="end angle of the B axis")
+incidence_angle_b = partial(_incidence, "Q417", meaning="angle of incidence of the B axis")
+measuring_points_b = partial(_points, "Q418", meaning="measuring points of the B axis")
+start_angle_c = partial(_start, "Q419", meaning="start angle of the C axis", example=90)
+end_angle_c = partial(_end, "Q420", meaning="end angle of the C axis", example=270)
+incidence_angle_c = partial(_incidence, "Q421", meaning="angle of incidence of the C axis")
+measuring_points_c = partial(_points, "Q422", meaning="measuring points of the C axis", example=3)
+number_of_touch_points = partial(count, "Q423", meaning="number of touch points on the equator", at_least=3, at_most=8, example=4)
+preset = partial(choice, "Q431", meaning="preset in the middle of the sphere", choices=SPHERE_PRESETS, example=0)
+backlash_angular_range = partial(
+    angle, "Q432", meaning="angle to measure the backlash by", at_least=-3, at_most=3, default=0, note="0: it is not measured",
+    example=0,
+)  # fmt: skip

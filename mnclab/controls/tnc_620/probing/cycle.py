@@ -11,7 +11,7 @@ import numpy as np
 
 from mnclab.controls.tnc_620.contours.line import Named, in_table
 from mnclab.controls.tnc_620.cycles.addresses import FAR, POSITIONING, choice, feed
-from mnclab.controls.tnc_620.cycles.chain import TILT
+from mnclab.controls.tnc_620.cycles.chain import TILT, carry
 from mnclab.controls.tnc_620.cycles.planes import ParameterFault, in_program_coordinates
 from mnclab.controls.tnc_620.state import active_preset, memory
 from mnclab.machine.coordinates import FRAME, in_mm
@@ -198,7 +198,7 @@ def save(
         before = m.tables.datums.get(number, Datum())
         yield Write("datums", before._replace(**{AXES[k]: float(shift[k]) for k in sets}), number)
         return
-    linear = m.matrix[:3, :3]
+    linear = m.frames.matrix[:3, :3]
     angle = np.radians(turned)
     turn = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
     shift, sets = _along(linear, measured - turn @ new, found)
@@ -218,6 +218,7 @@ def store(m: Machine, row: float, **columns: float) -> Iterator[Step]:
     if copied:
         yield Write("memory", number, "preset")
         yield Write("datum", preset, "preset")
+        yield from carry(m)
 
 
 def _along(linear: np.ndarray, by: np.ndarray, found: Mapping[int, tuple[float, float]]) -> tuple[np.ndarray, list[int]]:

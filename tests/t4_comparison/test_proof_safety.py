@@ -1,0 +1,137 @@
+"""Ways between cuts that could hit something, and what a program leaves to the machine: what may be allowed, and what never."""
+
+import pytest
+
+import mnclab as mnc
+from mnclab.__main__ import main
+
+TOOLS = {1: mnc.Tool(radius=3, length=60), 2: mnc.Tool(radius=4, length=70)}
+SETUP = mnc.Setup(tools=TOOLS)
+BLANK = mnc.Setup(tools=TOOLS, stock=((-50, -50, -30), (50, 50, 0)))
+HARMLESS = ("lifts", "chords", "order")
+PATH = (
+    "G17 G90 G54\nT1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z{h}\nG1 Z-2 F200\nX10 F300\nG0 Z{h}\n{way}X-20 Y-20\nG1 Z-2 F200\n"
+    "G0 Z50\nM5\nM30\n"
+)
+BEFORE, AROUND = "", "Y40\nX-20\n"  # the clamp
+
+
+def path(way, height=5):
+    return PATH.format(h=height, way=way)
+
+
+def proof(one, other, setup=SETUP, controls=("g43", "g43"), **options):
+    runs = (mnc.run(text, control, setup) for text, control in zip((one, other), controls))
+    return mnc.prove(*runs, allow=HARMLESS, **options)
+
+
+@pytest.mark.parametrize("setup", [SETUP, BLANK])
+@pytest.mark.parametrize("ways", [(AROUND, BEFORE), (BEFORE, AROUND)])
+def test_a_detour_that_is_dropped_is_never_harmless(ways, setup):
+    """Both go at Z5, and a clamp may stand where only one of them does not go."""
+    found = proof(*map(path, ways), setup)
+    assert found and found.counts == {"aside": 1} and not found.harmless and found.first.lines[1] == 9, found
+    assert "X-20 Y-20 Z5" in found.first.values[1] or "X10 Y40 Z5" in found.first.values[1]
+
+
+def test_above_what_the_other_went_over_it_is_harmless():
+    for other in (path(BEFORE, 5.5), path(AROUND, 20)):
+        found = proof(path(AROUND), other.replace("G0 X0 Y0 Z20", "G0 X0 Y0 Z5"))
+        assert not found and {*found.counts} == {"lifts"}, found
+    assert proof(path(AROUND), path(BEFORE, 4.5)).counts == {"rapid": 2}
+
+
+def clamped(top, x=-5.0):
+    """A clamp of 6 mm beside the straight way from X10 Y0 to X-20 Y-20, or on it."""
+    return mnc.Setup(tools=TOOLS, stock=((-50, -50, -30), (50, 50, 0)), fixtures=(((x - 3, -14, 0), (x + 3, -8, top)),))
+
+
+def test_fixtures_say_what_is_clear():
+    """At Z5 the straight way goes 2 mm above a clamp of 3 mm, where the way round is 4.5 mm beside it; one of 8 mm is hit."""
+    ways = path(AROUND), path(BEFORE)
+    far = proof(*ways, clamped(3, x=40))
+    assert not far and far.counts == {"lifts": 1}
+    near = proof(*ways, clamped(3))
+    assert near.verdict == "different" and near.counts == {"nearer": 1}, near
+    assert near.first.values[1] == "2 mm from the fixture"
+    assert "collision" in proof(*ways, clamped(8)).counts
+    assert not proof(ways[1], ways[0], clamped(3)) and proof(ways[1], ways[0], clamped(3)).counts == {"lifts": 1}
+
+
+def test_a_delta_length_is_another_depth():
+    klartext = (
+        "BEGIN PGM K MM\nTOOL CALL 1 Z S1000{}\nL X+0 Y+0 Z+5 R0 FMAX M3\nL Z-2 F200\nL X+10 F300\nL Z+50 FMAX M5\nM30\n"
+        "END PGM K MM\n"
+    )
+    one = path(BEFORE).split("G0 Z5\n")[0] + "G0 Z50\nM5\nM30\n"
+    assert not proof(one, klartext.format(""), controls=("g43", "tnc-620"))
+    for delta, word in (("+", "higher"), ("-", "lower")):
+        found = proof(one, klartext.format(f" DL{delta}0.1"), controls=("g43", "tnc-620"))
+        assert found.verdict == "different" and found.first.kind == "depth" and found.first.lines == (6, 4), found
+        assert found.first.amount == pytest.approx(0.1) and f"tip 0.1 mm {word}" in found.first.values[1]
+
+
+def test_the_blank_of_one_serves_both():
+    """The second one goes X10 in two cuts with a lift between: the blank of the first one shows that the part is the same."""
+    other = path(BEFORE).replace("X10 F300", "X5 F300\nG0 Z5\nG1 Z-2 F200\nX10 F300")
+    runs = mnc.run(path(BEFORE), "g43", BLANK), mnc.run(other, "g43", SETUP)
+    for pair in (runs, runs[::-1]):
+        found = mnc.prove(*pair)
+        whose = "first" if pair is runs else "second"
+        assert found.verdict == "same part" and found.blank == f"the blank of the {whose} program was taken for both"
+        assert found.blank in found.sentence
+    deeper = mnc.prove(runs[0], mnc.run(other.replace("G1 Z-2 F200\nX10", "G1 Z-3 F200\nX10"), "g43", SETUP))
+    assert deeper.verdict == "different" and "the parts differ by 1.000 mm" in deeper.part
+
+
+def test_a_spindle_that_is_held_through_a_tool_change_is_told():
+    first, second = "T1 M6\nG43 H1\nS900 M3\nG0 X0 Y0 Z5\nG1 Z-2 F200\nG0 Z50\n", "G0 X20 Y20 Z5\nG1 Z-4\nG0 Z50\nM5\nM30\n"
+    tools = first + "{}T2 M6\nG43 H2\n{}" + second
+    again, held = tools.format("", "S900 M3\n"), tools.format("", "")
+    for same in ((again, again), (held, held), (again, tools.format("M5\n", "M3\n"))):
+        assert not proof(*same).counts
+    found = proof(again, held)
+    assert found.verdict == "same motion" and found.counts == {"restart": 1} and found.first.lines == (11, 10)
+    assert "held through" in found.sentence
+    assert proof(again, tools.format("M5\n", "")).counts["spindle"] == 1
+
+
+def test_a_first_cut_that_is_missing_is_told_at_the_cut():
+    found = proof(path(BEFORE), path(BEFORE).replace("G1 Z-2 F200\nX10 F300", "G1 X10 F300", 1))
+    assert found.first.kind == "geometry" and found.first.lines == (6, 6) and found.first.blocks[1] == "G1 X10 F300"
+    assert found.first.values == ("1 cut", "none before this block")
+
+
+def test_rapids_of_a_lathe_are_told_by_their_places():
+    turned = "M3\nT1\nS800 G97 G95 F0.25\nG00 X32 Z3\nG01 X14\nZ-25\nX32\nG00 Z3\nX60 Z50\nM5\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(kind="turning")}, stock=mnc.cylinder(30, -60))
+    found = proof(turned, turned.replace("G00 Z3\nX60", "G00 X60\n"), setup, controls=("jnc-t01", "jnc-t01"))
+    assert found.verdict == "same part" and not found.harmless and found.first.lines == (8, 8)
+    assert found.first.values[1].startswith("by X60 (radius) Z-25, X60 (radius) Z50")
+
+
+def test_inches_for_mm_are_called_so():
+    found = proof(path(BEFORE), "G20\n" + path(BEFORE))
+    assert "25.4 times" in found.sentence
+
+
+def test_the_status_from_a_shell(tmp_path, capsys):
+    texts = {"a": path(BEFORE, 5), "higher": path(BEFORE, 9)}
+    texts["cut"] = path(BEFORE).replace("X10 F300", "X10 F300\nX0\nX10")
+    for name, text in texts.items():
+        (tmp_path / f"{name}.g43").write_text(text)
+    setup = tmp_path / "s.toml"
+    setup.write_text("[stock]\nlow = [-50, -50, -30]\nhigh = [50, 50, 0]\n[tools.1]\nradius = 3\nlength = 60\n")
+
+    def status(name, *more):
+        return main(["prove", str(tmp_path / "a.g43"), str(tmp_path / name), *more])
+
+    blank = "--setup", str(setup)
+    assert status("a.g43") == 0 and status("a.g43", "--same-motion") == 0
+    assert status("higher.g43") == 1  # no blank: nothing is known of the part
+    assert status("higher.g43", *blank) == 0 and status("higher.g43", *blank, "--same-motion") == 1
+    assert status("higher.g43", "--allow", "lifts", "--same-motion") == 0
+    assert status("cut.g43", *blank) == 1  # the same part by other cuts
+    capsys.readouterr()
+    assert status("missing.g43") == 2 and "missing.g43" in capsys.readouterr().err
+    assert main(["prove", str(tmp_path / "none.g43"), str(tmp_path / "a.g43")]) == 2 and "none.g43" in capsys.readouterr().err
