@@ -37,8 +37,8 @@ class AxisPositions(Pictured, Columned):
 
     def __init__(self, path: Toolpath, history: History, first: float) -> None:
         changes = history.changed("tool")
-        self.lengths, self.chains = lengths_of_rows(path.step, changes, first), history.changed(CHAIN)
-        found = references(path, path.end, np.arange(len(path)), self.lengths, self.chains)
+        self.lengths, self._chains = lengths_of_rows(path.step, changes, first), history.changed(CHAIN)
+        found = references(path, path.end, np.arange(len(path)), self.lengths, self._chains)
         self.path, self.line = path, path.line
         self._axes = np.concatenate([found, np.degrees(path.rotary).round(12)], axis=1)  # 30 degrees in rad and back are not 30
         self.X, self.Y, self.Z, self.A, self.B, self.C = self._axes.T
@@ -62,7 +62,7 @@ class AxisPositions(Pictured, Columned):
     def course(self) -> tuple[Array, Array]:
         """X Y Z A B C (m, 6) along the rows, within arcs too, and the row (m,) with the part of it that is done by then."""
         points, row = self.path.points()
-        found = references(self.path, points, row, self.lengths, self.chains)
+        found = references(self.path, points, row, self.lengths, self._chains)
         _, which, count = np.unique(row, return_inverse=True, return_counts=True)
         count[:1] -= 1  # the path begins at the first point
         done = (np.arange(len(row)) - (np.cumsum(count) - count)[which]) / count[which]

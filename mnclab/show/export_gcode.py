@@ -55,7 +55,7 @@ def text(run: Any) -> Iterator[str]:
     path = run.toolpath
     if path.kinematics is not None and path.rotary.any():
         yield f"{comment(f'X Y Z of the axes, less the length of the tool; {path.kinematics}')}\n"
-        path = by_axes(path, run.axes().lengths)
+        path = by_axes(path, run.axes())
     path = plain(path)
     writer = Writer(run, path.labels)
     if path.kinematics is not None and any(path.kinematics.home):
@@ -85,21 +85,20 @@ def plain(path: Toolpath) -> Toolpath:
     return concatenate([*pieces, path[at:]]) if pieces else path
 
 
-def by_axes(path: Toolpath, lengths: Array) -> Toolpath:
-    """The rows where the tip would be if no rotary axis had turned, which is where X Y Z stand; `lengths` (n,), mm, of the tools.
+def by_axes(path: Toolpath, axes: Any) -> Toolpath:
+    """The rows where the tip would be if no rotary axis had turned, which is where X Y Z stand; `axes` are those of the run.
 
     Feeds are those of X Y Z, rad/min where they stand.
     """
-    kinematics = path.kinematics
+    kinematics, lengths = path.kinematics, axes.lengths
     assert kinematics is not None
     before = np.concatenate([[kinematics.home], path.rotary[:-1]])
-
-    def hanging(tips: Array, angles: Array) -> Array:
-        found = kinematics.references(tips + path.origin, angles, lengths) - path.origin
-        return np.asarray(found - np.multiply.outer(lengths, UP))
-
-    start, end, centre = hanging(path.start, before), hanging(path.end, path.rotary), hanging(path.centre, path.rotary)
-    axis = np.einsum("nji,nj->ni", kinematics.carried(path.rotary, lengths)[:, :3, :3], path.axis)
+    end = np.asarray(axes)[:, :3] - np.multiply.outer(lengths, UP) - path.origin
+    back = kinematics.carried(path.rotary, lengths)[:, :3, :3]
+    axis = np.einsum("nji,nj->ni", back, path.axis)
+    centre = end + np.einsum("nji,nj->ni", back, path.centre - path.end)
+    first = end[:1] + np.einsum("nji,nj->ni", back[:1], path.start[:1] - path.end[:1])  # nothing turns in the first row
+    start = np.concatenate([first, end[:-1]])
     turned = (path.rotary != before).any(axis=1)
     still = turned & (np.linalg.norm(end - start, axis=1) < STANDS)
     end[still] = start[still]

@@ -6,8 +6,13 @@ const RINGS = 0.34, WIDER = 0.07;  // of the size of the picture: the ring about
 const DEGREE = Math.PI / 180;
 
 class Chain {
-  constructor(columns, {head, table, home, length, plane}) {
-    Object.assign(this, {head, table, home, length: new Log(columns, length), plane: new Log(columns, plane)});
+  constructor(columns, {head, table, home, length, plane, corrected}) {
+    Object.assign(this, {head, table, home, corrected, length: new Log(columns, length), plane: new Log(columns, plane)});
+  }
+  // As it is in a row, where a cycle may have corrected it.
+  in(row) {
+    const found = this.corrected.filter(each => row >= each.row).pop();
+    return found ? Object.assign(Object.create(Chain.prototype), this, found) : this;
   }
   get axes() {  // by their names
     return [...this.table, ...this.head].sort((a, b) => a.number - b.number);

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.path.toolpath import Toolpath
+from mnclab.geometry.kinematics import Kinematics
+from mnclab.path.toolpath import Array, Toolpath
 from mnclab.show.chains import tilted_planes
 from mnclab.show.player.part import Packer, changes, log
 
@@ -16,6 +17,21 @@ def turns(path: Toolpath) -> bool:
     return path.kinematics is not None and bool(path.rotary.any()) and not path.cylinders
 
 
+def _chain(kinematics: Kinematics, origin: Array) -> dict[str, Any]:
+    """Head and table, each from the machine on."""
+    return {
+        side: [{"name": axis.name, "number": axis.number, "centre": (np.array(axis.centre) - off).tolist(), "line": axis.direction}
+               for axis in axes]
+        for side, axes, off in (("head", kinematics.head, 0.0), ("table", kinematics.table, origin))
+    }  # fmt: skip
+
+
+def _last(path: Toolpath, step: int) -> int:
+    """The last row of a step, from which on counts what it has corrected; the next row where it has none."""
+    after = int(np.searchsorted(path.step, step, "right"))
+    return after - 1 if after and path.step[after - 1] == step else after
+
+
 def machine(pack: Packer, run: Any) -> dict[str, Any] | None:
     """The axes from the machine to the tool and to the part, centres of a table in coordinates of the path, those of a head from
     the spindle reference; None where nothing turns."""
@@ -23,14 +39,10 @@ def machine(pack: Packer, run: Any) -> dict[str, Any] | None:
     if not turns(path):
         return None
     steps, planes = tilted_planes(run)
-    head, table = (
-        [{"name": axis.name, "number": axis.number, "centre": (np.array(axis.centre) - off).tolist(), "line": axis.direction}
-         for axis in axes]
-        for axes, off in ((kinematics.head, 0.0), (kinematics.table, path.origin))
-    )  # fmt: skip
+    corrected = [(_last(path, step), found) for step, found in run.history.changed("kinematics") if found != kinematics]
     return {
-        "head": head,
-        "table": table,
+        **_chain(kinematics, path.origin),
+        "corrected": [{"row": row, **_chain(found, path.origin)} for row, found in corrected],
         "home": np.degrees(kinematics.home).tolist(),
         "length": log(pack, run.axes().lengths),
         "plane": changes(pack, steps, [None if plane is None else plane.tolist() for plane in planes]),

@@ -57,6 +57,8 @@ function valueText(name, value, mm) {
   if (name === "rotary") return anglesText(value.map(angle => angle * 180 / Math.PI), value.map(angle => angle !== 0)) || "0°";
   if (name === "feed") return lengthText(value, mm);
   if (name === "stock") return stockText(value, mm);
+  if (name === "kinematics")  // where its axes lie
+    return [...value.head, ...value.table].map(each => `${each.name} ${each.centre.map(v => lengthText(v, mm)).join(" ")}`).join(", ");
   if (name === "pole") return value.map(each => lengthText(each, mm)).join(" ");
   if (name === "side") return ["right", "none", "left"][value + 1];
   if (typeof value === "number") return short(value);
