@@ -49,8 +49,12 @@ class Gaps:
     def frames(self) -> tuple[Array, Array]:
         """How the frame of each move is turned (k, 3, 3) and shifted (k, 3)."""
         turn, shift = (np.stack([getattr(place, name) for _, place in self.groups]) for name in ("turn", "shift"))
-        group = np.repeat(np.arange(len(self.groups)), [len(each) for each in self._straight])
-        return turn[group], shift[group]
+        return turn[self.group], shift[self.group]
+
+    @cached_property
+    def group(self) -> Index:
+        """The group of each move (k,)."""
+        return np.repeat(np.arange(len(self.groups)), [len(each) for each in self._straight])
 
     @cached_property
     def boxes(self) -> Array:
@@ -152,6 +156,21 @@ class Gaps:
             found[some] = np.where(np.abs(low - top[some]) < NOISE, self.rows[which, None], -1).max(axis=0)
         return found
 
+    def off(self, x: Array, y: Array, z: Array, top: Array, floor: Array) -> Array:
+        """How far up or down material is (m,), mm, from heights z over points where it goes from `floor` to `top`."""
+        found = np.maximum(np.maximum(z - top, floor - z), 0.0)
+        for some, _, low, high in self.spans(x, y):
+            down, up = _fallen(z[some], low, high), -_fallen(-z[some], -high, -low)
+            ways = np.where(down < floor[some], np.inf, z[some] - down), np.where(up > top[some], np.inf, up - z[some])
+            found[some] = np.where(found[some] > 0, found[some], np.minimum(*ways))
+        return found
+
+    def near(self, low: Array, high: Array) -> list[Group]:
+        """The groups that reach over a box in the plane."""
+        boxes = self.boxes
+        reach = (boxes[:, :2] <= high[:2]).all(axis=1) & (boxes[:, 2:] >= low[:2]).all(axis=1)
+        return [self.groups[k] for k in np.unique(self.group[reach]).tolist()]
+
     def empty(self, x: Array, y: Array, z: Array | float) -> Mask:
         """Which points (m,) are in a gap."""
         found, z = np.zeros(len(x), dtype=bool), np.broadcast_to(z, len(x))
@@ -240,8 +259,8 @@ def _above(moves: Moves, q: Array, e: Array, s: Array) -> Array:
 
 
 def _searched(moves: Moves, q: Array, e: Array, begin: Array, end: Array) -> tuple[Array, Array]:
-    """The same of pairs (p,) of a line and a tool that is not flat, or falls: how high its edges are above the line is convex along
-    it, so that the lowest place is found by thirds, and then both ends."""
+    """The same of pairs (p,) of a line and a tool that is not flat, or falls: how high its edges are above the line is convex
+    along it, so that the lowest place is found by thirds, and then both ends."""
     upright = ~np.isfinite(begin)
     height = np.divide(_above(moves, q, e, np.zeros(len(e))), e[:, 2], out=np.zeros(len(e)), where=upright)
     first, last = np.where(upright & (e[:, 2] > 0), height, -np.inf), np.where(upright & (e[:, 2] < 0), height, np.inf)
