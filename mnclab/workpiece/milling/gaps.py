@@ -20,6 +20,7 @@ from mnclab.workpiece.milling.swept import left_by
 from mnclab.workpiece.outcome import spend
 
 FEW, NARROWINGS, TURNS = 9, 40, 33  # places of a line under a tool; of its lowest one; of where it leaves the tool
+NO_GAP = -2  # no row, not even one before
 RIM = 1e-12  # of the way to the rim of a tool, by which the last place is nearer
 PAIRS, TOGETHER = 20_000_000, 1000  # points times moves, twice, beyond which fewer columns tell what each row took; points
 EFFORT = 20  # times the work of a point under an upright move
@@ -173,9 +174,13 @@ class Gaps:
 
     def empty(self, x: Array, y: Array, z: Array | float) -> Mask:
         """Which points (m,) are in a gap."""
-        found, z = np.zeros(len(x), dtype=bool), np.broadcast_to(z, len(x))
-        for some, _, low, high in self.spans(x, y):
-            found[some] = ((low < z[some]) & (z[some] < high)).any(axis=0)
+        return self.rows_at(x, y, z) > NO_GAP
+
+    def rows_at(self, x: Array, y: Array, z: Array | float) -> Index:
+        """The last row (m,) that took points away, -1 where that was before, `NO_GAP` where they are in none."""
+        found, z = np.full(len(x), NO_GAP), np.broadcast_to(z, len(x))
+        for some, which, low, high in self.spans(x, y):
+            found[some] = np.where((low < z[some]) & (z[some] < high), self.rows[which, None], NO_GAP).max(axis=0)
         return found
 
 
