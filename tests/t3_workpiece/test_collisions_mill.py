@@ -338,11 +338,11 @@ def test_a_place_beside_zero_has_no_sign():
 
 def test_a_note_names_what_is_not_judged():
     """Whoever reads that nothing was met, reads of what this holds."""
-    text = "TOOL CALL 3 Z S1000\nL Z+100 R0 FMAX M3\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\nL X+10 R0 F100\n"
+    text = "TOOL CALL 3 Z S1000\nL Z+91 R0 FMAX M3\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\nL Z+95 R0 F100\n"
     found = mnclab.run(text, "tnc-620").collisions(((-20, -20, -20), (20, 20, 90)))
-    assert found == () and found.notes == ("1 row of a tool not along Z not judged (program:4)",)
-    assert repr(found) == "no collisions\n  note: 1 row of a tool not along Z not judged (program:4)"
-    assert "<p>1 row of a tool not along Z not judged (program:4)</p>" in found._repr_html_()
+    assert found == () and found.notes == ("1 row on which the tool turns not judged (program:4)",)
+    assert repr(found) == "no collisions\n  note: 1 row on which the tool turns not judged (program:4)"
+    assert "<p>1 row on which the tool turns not judged (program:4)</p>" in found._repr_html_()
 
 
 PROBED = "G54 G17 G90 T1 S800 M3\nG0 X20 Y20 Z5\nG1 Z-6 F100\nG0 Z5\nM5\nT2\n{way}\nG0 Z20\n"

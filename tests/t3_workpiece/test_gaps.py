@@ -1,4 +1,4 @@
-"""Upright lines through what tilted tools sweep: against every point of them seen along the tool, by the heights of upright moves."""
+"""Upright lines through what tilted tools sweep: against points of them seen along the tool, by the heights of upright moves."""
 
 import math
 
@@ -19,8 +19,8 @@ def one(start, end, cutter, centre=None, sweep=0.0):
     """A move of a cutter (radius, flat, corner, slope)."""
     bent = centre is not None
     columns = (np.array([float(value)]) for value in cutter)
-    middle = np.array([centre if bent else (0.0, 0.0)])
-    return Moves(np.zeros(1, dtype=int), np.array([start]), np.array([end]), np.array([bent]), middle, np.array([sweep]), *columns)
+    turn = np.array([bent]), np.array([centre if bent else (0.0, 0.0)]), np.array([sweep])
+    return Moves(np.zeros(1, dtype=int), np.array([start]), np.array([end]), *turn, *columns)
 
 
 def gaps_of(moves, direction, shift=(0.0, 0.0, 0.0)):
@@ -70,7 +70,7 @@ def test_what_stands_in_a_column_between_gaps():
     chords = 2 * np.sqrt(np.maximum(16 - x**2, 0)) + 2 * np.sqrt(np.maximum(16 - y**2, 0))
     top, floor = np.full(4, 0.0), np.full(4, -40.0)
     assert np.allclose(gaps.left(x, y, top, floor), 40 - chords, atol=1e-9)
-    top, floor = gaps.sides(x, y, np.full(4, -8.0), np.full(4, -22.0))  # both begin and end in the bores where they meet the lines
+    top, floor = gaps.sides(x, y, np.full(4, -8.0), np.full(4, -22.0))  # both in the bores
     half_x, half_y = (np.sqrt(np.maximum(16 - d**2, 0)) for d in (y, x))
     assert np.allclose(top, np.where(half_x > 2, -10 - half_x, -8), atol=1e-9)
     assert np.allclose(floor, np.where(half_y > 2, -20 + half_y, -22), atol=1e-9)

@@ -9,6 +9,7 @@ from tools.running import run
 
 from mnclab import Tool
 from mnclab.workpiece.blank import cylinder
+from mnclab.workpiece.milling import tilted
 from mnclab.workpiece.milling.milled import Milled
 
 SLOT = "G0 X-10 Y20\nG1 Z-8\nG1 X70\nG0 Z50"
@@ -50,7 +51,7 @@ def test_the_bore_of_a_lying_tube_is_not_shown():
     assert note == "the bore of a lying blank is not shown"
 
 
-def test_rows_of_a_tilted_tool_are_left_out_and_told():
+def test_rows_of_too_many_tilted_moves_are_left_out_and_told(monkeypatch):
     text = """TOOL CALL 1 Z S1000 F500
 L X+10 Y+20 Z+50 R0 FMAX M3
 L Z-2 F500
@@ -61,15 +62,17 @@ CYCL DEF 19.1 A+0 B+45 C+0 F5000 ABST50
 L X+10 Y+20 Z+50 R0 FMAX
 L Z-2 F500
 """
+    monkeypatch.setattr(tilted, "MOST", 1)
     left = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece()
     (note,) = left.notes
-    assert note == "3 rows of a tool not along Z are left out (program:6, program:8, program:9)"  # with the row that swivels
+    assert note == "2 rows of tilted tools, more than 1, are left out (program:8, program:9)"
     assert left.at(30, 20) == -2 and left.removed == pytest.approx((10 * 40 + 25 * 3.14159265) * 2, rel=1e-3)
 
 
-def test_one_row_of_a_tilted_tool_is_one_row():
+def test_one_row_of_a_tool_that_turns_is_one_row():
     text = "TOOL CALL 1 Z S1000 F500\nL X+10 Y+20 Z+50 R0 FMAX M3\nL Z+20 FMAX\nL Z-2 F500\n"
     cutting = run(text, "tnc-620", tools={1: MILL}, stock=BLOCK).workpiece().cutting
-    tilted = np.arange(len(cutting)) == len(cutting) - 1
-    (note,) = Milled(replace(cutting, tilted=tilted)).notes
-    assert note == "1 row of a tool not along Z is left out (program:4)"
+    directions = np.zeros((len(cutting), 3, 3)) + (0.0, 0.0, 1.0)
+    directions[-1, 2] = 0.0, 0.6, 0.8
+    (note,) = Milled(replace(cutting, directions=directions)).notes
+    assert note == "1 row on which the tool turns is left out (program:4)"

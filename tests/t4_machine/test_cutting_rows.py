@@ -7,7 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Setup, Tool
-from mnclab.machine.cutting import start_known, stock_of, tilted_rows, tools_of_rows
+from mnclab.machine.cutting import directions_of_rows, start_known, stock_of, tools_of_rows
 from mnclab.workpiece.blank import Box, cylinder
 
 STEPS = np.array([0, 1, 2, 3, 4])
@@ -41,13 +41,31 @@ def test_a_tool_that_is_not_as_its_table_says():
     assert lift == pytest.approx([0, 0.3, 0.3, 0.8, 0.8])
 
 
-def test_only_a_frame_that_leans_makes_rows_tilted():
+def path_of(rotary=None, kinematics=None):
+    """Five lines, one a step."""
+    columns = {"kind": np.full(5, int(mnclab.Kind.LINE), dtype=np.uint8), "step": STEPS}
+    return mnclab.Toolpath(columns | ({"rotary": rotary} if rotary is not None else {}), kinematics=kinematics)
+
+
+def test_only_a_frame_that_leans_turns_the_tool_on_the_part():
+    """About X by 0.3 the tool stands along (0, -sin 0.3, cos 0.3); a tool axis Y lies along Y of the frame."""
     leaning, turned = np.eye(4), np.eye(4)
     c, s = np.cos(0.3), np.sin(0.3)
     leaning[1:3, 1:3] = turned[:2, :2] = [[c, -s], [s, c]]
-    assert tilted_rows(STEPS, [(1, np.eye(4)), (2, turned), (3, None)]) is None
-    assert tilted_rows(STEPS, [(1, leaning), (3, None)]).tolist() == [False, True, True, False, False]
-    assert tilted_rows(STEPS, [(2, leaning), (4, np.eye(4))]).tolist() == [False, False, True, True, False]
+    assert directions_of_rows(path_of(), [(1, np.eye(4)), (2, turned), (3, None)]) is None
+    found = directions_of_rows(path_of(), [(1, leaning), (3, None)])
+    assert found.shape == (5, 3, 3) and np.allclose(found[[0, 3, 4]], (0, 0, 1)) and np.allclose(found[1:3], (0, -s, c))
+    assert np.allclose(directions_of_rows(path_of(), [(2, leaning)], [(3, "Y")])[3:], (0, c, s))
+
+
+def test_with_a_kinematics_the_axes_turn_it_while_they_move():
+    """A to 30 degrees on the second row: from upright to (0, -0.5, cos 30), and so it stays."""
+    rotary = np.zeros((5, 3))
+    rotary[1:, 0] = np.radians(30)
+    kinematics = mnclab.Kinematics(table=(mnclab.Axis("A"),))
+    found = directions_of_rows(path_of(rotary, kinematics), [])
+    leant = (0, -0.5, np.cos(np.radians(30)))
+    assert np.allclose(found[:2, 0], (0, 0, 1)) and np.allclose(found[1:, 2], leant) and np.allclose(found[2:], leant)
 
 
 @pytest.mark.parametrize(

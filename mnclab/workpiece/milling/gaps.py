@@ -20,6 +20,7 @@ from mnclab.workpiece.milling.swept import left_by
 from mnclab.workpiece.outcome import spend
 
 FEW, NARROWINGS, TURNS = 9, 40, 33  # places of a line under a tool; of its lowest one; of where it leaves the tool
+NO_GAP = -2  # no row, not even one before
 RIM = 1e-12  # of the way to the rim of a tool, by which the last place is nearer
 PAIRS, TOGETHER = 20_000_000, 1000  # points times moves, twice, beyond which fewer columns tell what each row took; points
 EFFORT = 20  # times the work of a point under an upright move
@@ -49,8 +50,12 @@ class Gaps:
     def frames(self) -> tuple[Array, Array]:
         """How the frame of each move is turned (k, 3, 3) and shifted (k, 3)."""
         turn, shift = (np.stack([getattr(place, name) for _, place in self.groups]) for name in ("turn", "shift"))
-        group = np.repeat(np.arange(len(self.groups)), [len(each) for each in self._straight])
-        return turn[group], shift[group]
+        return turn[self.group], shift[self.group]
+
+    @cached_property
+    def group(self) -> Index:
+        """The group of each move (k,)."""
+        return np.repeat(np.arange(len(self.groups)), [len(each) for each in self._straight])
 
     @cached_property
     def boxes(self) -> Array:
@@ -152,11 +157,30 @@ class Gaps:
             found[some] = np.where(np.abs(low - top[some]) < NOISE, self.rows[which, None], -1).max(axis=0)
         return found
 
+    def off(self, x: Array, y: Array, z: Array, top: Array, floor: Array) -> Array:
+        """How far up or down material is (m,), mm, from heights z over points where it goes from `floor` to `top`."""
+        found = np.maximum(np.maximum(z - top, floor - z), 0.0)
+        for some, _, low, high in self.spans(x, y):
+            down, up = _fallen(z[some], low, high), -_fallen(-z[some], -high, -low)
+            ways = np.where(down < floor[some], np.inf, z[some] - down), np.where(up > top[some], np.inf, up - z[some])
+            found[some] = np.where(found[some] > 0, found[some], np.minimum(*ways))
+        return found
+
+    def near(self, low: Array, high: Array) -> list[Group]:
+        """The groups that reach over a box in the plane."""
+        boxes = self.boxes
+        reach = (boxes[:, :2] <= high[:2]).all(axis=1) & (boxes[:, 2:] >= low[:2]).all(axis=1)
+        return [self.groups[k] for k in np.unique(self.group[reach]).tolist()]
+
     def empty(self, x: Array, y: Array, z: Array | float) -> Mask:
         """Which points (m,) are in a gap."""
-        found, z = np.zeros(len(x), dtype=bool), np.broadcast_to(z, len(x))
-        for some, _, low, high in self.spans(x, y):
-            found[some] = ((low < z[some]) & (z[some] < high)).any(axis=0)
+        return self.rows_at(x, y, z) > NO_GAP
+
+    def rows_at(self, x: Array, y: Array, z: Array | float) -> Index:
+        """The last row (m,) that took points away, -1 where that was before, `NO_GAP` where they are in none."""
+        found, z = np.full(len(x), NO_GAP), np.broadcast_to(z, len(x))
+        for some, which, low, high in self.spans(x, y):
+            found[some] = np.where((low < z[some]) & (z[some] < high), self.rows[which, None], NO_GAP).max(axis=0)
         return found
 
 

@@ -7,6 +7,7 @@ each a fan about its middle that meets every node of its neighbours, so that the
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -62,7 +63,13 @@ def of_cells(workpiece: Milled) -> Solid:
     found = grid.contour([0.0], scalars=np.clip(off, -step, step).ravel()).triangulate()
     points = np.asarray(found.points, dtype=np.float64).reshape(-1, 3)
     faces = np.asarray(found.faces, dtype=np.int64).reshape(-1, 4)[:, :0:-1]
-    return Solid(points, faces, rows_at(workpiece, *points[faces].mean(axis=1).T))
+    a, b, c = points[faces].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    beside = (a + b + c) / 3 + step * normal / np.maximum(np.linalg.norm(normal, axis=1), SAME)[:, None]
+    row = rows_at(workpiece, *beside.T) if len(workpiece.moves) else np.full(len(faces), -1)
+    row = np.where(beside[:, 2] > replace(sweep, gaps=None).at(*beside[:, :2].T), row, -1)
+    row = np.maximum(row, sweep.gaps.rows_at(*beside.T)) if sweep.gaps else row
+    return Solid(points, faces, np.where(((beside > low) & (beside < high)).all(axis=1), row, -1))
 
 
 def _join(above: Lattice, below: Lattice, upper: Index, lower: Index) -> None:

@@ -128,7 +128,7 @@ def meeting(cutting: Cutting) -> Mask:
         return found
     (first, _, last), path = np.moveaxis(cutting.directions, 1, 0), cutting.path
     before = np.concatenate([first[:1], last[:-1]])
-    before[: cutting.known] = first[: cutting.known]
+    before[: cutting.arrived + 1] = first[: cutting.arrived + 1]  # nobody has said where the tool was
     turns = cutting.turning
     swings = path.is_motion & ~turns & (np.abs(before - first) > TURNED).any(axis=1)
     for some, end, ways in ((turns, path.end, (first, last)), (swings, path.start, (before, first))):

@@ -82,7 +82,9 @@ class Touched:
 
     def _before(self, points: Array) -> Iterator[tuple[Array, Array]]:
         """As `depths` has it of the moves of tilted tools, and of those that cut the blank in former clampings."""
-        for moves, placement in (*self.tilted, *(self.stock.made_by() if isinstance(self.stock, Clamped) else ())):
+        plain = self.stock.made_by() if isinstance(self.stock, Clamped) else ()
+        around = points.min(axis=0) - FAR, points.max(axis=0) + FAR
+        for moves, placement in self.gaps.near(*around) if self.gaps else plain:
             own = placement.back(points)
             if len(moves := _about(moves, own, FAR)):
                 depth, feet = depths(moves, own)
@@ -155,9 +157,13 @@ class Touched:
         """How far the material is (m, a, r) that stands at some places `out` (m, a, r) on rays (m, a) from points."""
         x = points[:, :1, None] + out * np.cos(angle)[..., None]
         y = points[:, 1:2, None] + out * np.sin(angle)[..., None]
-        floor, top = (each.reshape(out.shape) for each in self._columns(moves, x.ravel(), y.ravel()))
-        height = points[:, 2:, None]
-        return np.hypot(out, np.maximum(np.maximum(height - top, floor - height), 0.0))
+        floor, top = self._columns(moves, x.ravel(), y.ravel())
+        height = np.broadcast_to(points[:, 2:, None], out.shape).ravel()
+        if self.gaps:
+            up_or_down = self.gaps.off(x.ravel(), y.ravel(), height, top, floor)
+        else:
+            up_or_down = np.maximum(np.maximum(height - top, floor - height), 0.0)
+        return np.hypot(out, up_or_down.reshape(out.shape))
 
 
 def _about(moves: Moves, points: Array, reach: float) -> Moves:

@@ -460,10 +460,55 @@ def test_the_export_turns_the_axis():
     assert any("A90" in block for block in blocks)
 
 
-def test_no_part_is_claimed():
-    """A height map cannot hold a cylinder that turns: its rows are left out of the part, which says so, and not judged."""
-    blank = "BLK FORM 0.1 Z X-10 Y-30 Z-30\nBLK FORM 0.2 X+60 Y+30 Z+30"
-    found = run(program(27).replace("TOOL CALL 1 Z S2000", f"{blank}\nTOOL CALL 1 Z S2000"))
-    part = found.workpiece(step=1.0)
-    assert part.removed == 0 and any("not along Z" in note or "tilted" in note for note in part.notes)
-    assert not [one for one in found.collisions() if one.kind != "spindle"]
+DRUM = mnc.cylinder(25, -20, 20, axis="X")
+
+
+def slot_on_a_drum(contour: str, **q) -> mnc.Run:
+    """In the middle of the drum, 7 deep, by the mill of radius 3.5 along a contour on the surface."""
+    return run(program(27, contour, Q17=0, **q))
+
+
+def test_a_slot_round_a_drum_is_cut():
+    """A quarter of a turn: a sector of a ring from radius 18 to 25 and 7 wide, and half the tool at both ends."""
+    part = slot_on_a_drum("L X+0 Y+0 R0\nL X+90").workpiece(stock=DRUM, step=0.5)
+    angle = (np.arange(20_000) + 0.5) * math.pi / 20_000  # u = -r cos: half the tool under the surface, twice
+    ends = float((2 * (3.5 * np.sin(angle)) ** 2 * (np.sqrt(625 - (3.5 * np.cos(angle)) ** 2) - 18)).sum() * math.pi / 20_000)
+    assert part.removed == pytest.approx(7 * (625 - 324) / 2 * math.pi / 2 + ends, rel=1e-3)
+    assert part.error <= 4e-3 and part.notes == ()
+    y = np.array([0.0, -5.0, -10.0])
+    assert np.abs(part.at(0 * y, y) - np.sqrt(324 - y * y)).max() < 1.5e-3  # the floor, round the axis
+    assert np.abs(part.at(0 * y + 3.501, y) - np.sqrt(625 - y * y)).max() < 1e-9  # what stands beside it
+    (section,) = part.cut("XZ", -10.0)
+    places = np.array(section.points)
+    floor = places[np.abs(places[:, 1] - math.sqrt(324 - 100)) < 0.01]
+    assert floor[:, 0].min() == pytest.approx(-3.5, abs=1e-3) and floor[:, 0].max() == pytest.approx(3.5, abs=1e-3)
+
+
+def test_a_slot_that_winds_has_its_width():
+    """Points of the drum against the tool at 4000 places of its way: cut where one of them has it within its radius."""
+    found = slot_on_a_drum("L X-30 Y-10 R0\nL X+50 Y+12")
+    part = found.workpiece(stock=DRUM, step=0.5)
+    assert part.error <= 4.1e-3
+    angles, places = np.radians(np.linspace(-30, 50, 4000)), np.linspace(-10, 12, 4000)
+    rho, phi, x = np.random.default_rng(4).uniform((18.1, -1.0, -16), (24.9, 1.4, 18), (400, 3)).T
+    points = np.stack([x, -rho * np.sin(phi), rho * np.cos(phi)], axis=1)  # the tool stands over -Y where A is 90
+    aside, high = rho[:, None] * np.sin(phi[:, None] - angles), rho[:, None] * np.cos(phi[:, None] - angles)
+    off = np.where(high > 18, np.hypot(aside, x[:, None] - places), np.inf).min(axis=1) - 3.5
+    sure = np.abs(off) > 0.006
+    top, floor = part.blank_at(points[:, 0], points[:, 1])
+    assert ((floor < points[:, 2]) & (points[:, 2] < top)).all()
+    gone = part.sweep.gaps.empty(*points.T)
+    assert sure.sum() > 380 and (off < 0).sum() > 60 and (gone == (off < 0))[sure].all()
+
+
+def test_a_whole_turn_is_no_standstill():
+    """A groove all round: the ring from radius 18 to 25, 7 wide."""
+    part = slot_on_a_drum("L X+0 Y+0 R0\nL X+360").workpiece(stock=DRUM, step=0.5)
+    assert part.removed == pytest.approx(math.pi * (625 - 324) * 7, rel=1e-3) and part.removed_by("tool").keys() == {1}
+
+
+def test_what_turns_near_a_drum_is_not_judged():
+    found = slot_on_a_drum("L X+0 Y+0 R0\nL X+90")
+    assert found.collisions(stock=DRUM).notes == ("2 rows on which the tool turns not judged (program:16)",)
+    box = found.workpiece(stock=((-20, -30, -30), (20, 30, 30)), step=1.0)  # whose edges come higher than the rapids between
+    assert "1 row on which the tool turns is left out (program:16)" in box.notes

@@ -6,6 +6,7 @@ the tool axis Z holds for the others.
 
 from __future__ import annotations
 
+import math
 import re
 
 import numpy as np
@@ -165,12 +166,14 @@ def test_q109_and_the_plane(axis: str, number: int, tnc) -> None:
     assert run.history.value("plane", 3) in ({"X": "YZ", "Y": "ZX", "Z": "XY"}[axis], None)
 
 
-def test_what_a_lying_tool_would_cut_is_left_out_and_said(tnc) -> None:
-    """The blank is cut from above alone."""
+def test_what_a_lying_tool_cuts(tnc) -> None:
+    """It comes from +Y, and its tip to Y-20 at rapid: right through the block, 40 mm long."""
     text = "BEGIN PGM A MM\nBLK FORM 0.1 Y X+0 Y+0 Z-20\nBLK FORM 0.2 X+60 Y+40 Z+0\nTOOL CALL 1 {} S1000 F100\n"
     text += "L X+30 Y-20 Z-10 R0 FMAX M3\nL Y+30\nL Y-20 FMAX\nEND PGM A MM\n"
-    lying = tnc(text.format("Y")).workpiece()
-    assert lying.volume == 60 * 40 * 20 and any("a tool not along Z" in note for note in lying.notes)
+    lying = tnc(text.format("Y"), mnc.Setup(**MACHINE))
+    assert lying.workpiece().removed == pytest.approx(math.pi * 25 * 40, rel=1e-3)
+    (met,) = lying.collisions()
+    assert (met.kind, met.line, met.depth) == ("rapid", 5, pytest.approx(40))
     assert tnc(text.format("Z")).workpiece().volume < 60 * 40 * 20
 
 
