@@ -121,6 +121,36 @@ def test_a_head_is_seen_as_far_as_its_axes(opened):
     assert not page.evaluate(inside)
 
 
+def test_the_square_lies_in_the_plane_that_is_tilted(opened):
+    """SPB+30 about X20: X of the plane goes along (cos 30, 0, -sin 30) from there; before and after it there is none."""
+    shift, how = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+20", "TURN MB50 FMAX"
+    run = made("table-ac", f"{shift}\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 {how}\nL X+5 F500\nPLANE RESET {how}")
+    page = opened(run)
+    planes = page.evaluate("() => Array.from({length: player.run.steps}, (_, k) => player.run.chain.plane.value(k))")
+    lines = [run.program[int(block)].span.line for block in run.steps.block]
+    shown = dict(zip(lines, planes))
+    assert shown[3] is None and shown[8] is None
+    c, s = np.cos(np.radians(30)), np.sin(np.radians(30))
+    assert np.allclose(shown[7], [[c, 0, s, 20], [0, 1, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]], atol=1e-9)
+
+
+def test_what_a_cycle_corrects_counts_from_there_on(opened):
+    """An axis that is 0.03 and 0.04 mm beside where the control believes it: 451 finds it, and the board follows."""
+    true = mnc.Kinematics(table=(mnc.Axis("A", centre=(0, 0.03, 49.96)), mnc.Axis("C")))
+    turns = "Q411=-60 Q412=60 Q413=0 Q414=4 Q415=0 Q416=0 Q417=0 Q418=0 Q419=-90 Q420=180 Q421=0 Q422=4"
+    words = f"Q406=1 Q407=12.5 Q320=0 Q408=0 Q253=750 Q380=0 {turns} Q423=4 Q431=0 Q432=0"
+    setup = mnc.Setup(
+        tools={5: mnc.Tool(radius=2, length=120, kind="probe")}, probe=mnc.Probe(clearance=2, reach=10), kinematics="table-ac",
+        true_kinematics=true, start=(100, 60, 180), part=mnc.part.ball((100, 60, 40), 12.5), presets={0: (100, 60, 40)},
+    )  # fmt: skip
+    run = mnc.run(f"TOOL CALL 5 Z\nTCH PROBE 451 X\n{words}\nL Z+150 F500\nL A+40 F500\n", "tnc-620", setup)
+    assert run.ok, run.alarms
+    page, axes = opened(run), run.axes()
+    for row in (len(run.toolpath) // 3, len(run.toolpath) - 1):
+        for name, shown in page.evaluate(READ, row):
+            assert float(shown.rstrip("°")) == pytest.approx(axes[name][row], abs=0.0006), (row, name)
+
+
 def test_without_kinematics_the_page_has_no_axes(opened):
     page = opened(made(None, "L X+0 F500"))
     assert page.evaluate("() => typeof Chain") == "undefined"

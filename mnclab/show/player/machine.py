@@ -19,11 +19,11 @@ def turns(path: Toolpath) -> bool:
 
 def _chain(kinematics: Kinematics, origin: Array) -> dict[str, Any]:
     """Head and table, each from the machine on."""
-    return {
-        side: [{"name": axis.name, "number": axis.number, "centre": (np.array(axis.centre) - off).tolist(), "line": axis.direction}
-               for axis in axes]
-        for side, axes, off in (("head", kinematics.head, 0.0), ("table", kinematics.table, origin))
-    }  # fmt: skip
+    found = {}
+    for side, axes, off in (("head", kinematics.head, 0.0), ("table", kinematics.table, origin)):
+        told = [{"name": axis.name, "number": axis.number, "line": axis.direction} for axis in axes]
+        found[side] = [one | {"centre": (np.array(axis.centre) - off).tolist()} for one, axis in zip(told, axes)]
+    return found
 
 
 def _last(path: Toolpath, step: int) -> int:
