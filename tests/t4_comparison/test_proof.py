@@ -397,15 +397,30 @@ def test_zero_points_that_are_two_are_told():
     assert "X100 Y0 Z0 and X200 Y0 Z0" in proof(PATH, PATH.replace("G54", "G55"), setup=setup).sentence
 
 
+def wave(count, deeper=0.0, setup=SETUP):
+    """Rows of a surface in moves of 0.1 mm."""
+    k = np.arange(count)
+    places = zip((k % 1000 * 0.1).tolist(), (k // 1000 * 0.5).tolist(), (np.sin(k * 0.01) * 2 - 3 - deeper).tolist())
+    head, foot = PATH.split("X10 F300")[0], "G0 Z20\nM5\nM30\n"
+    return mnc.run(head + "F300\n" + "".join(f"X{x:.3f} Y{y:.3f} Z{z:.3f}\n" for x, y, z in places) + foot, "g43", setup)
+
+
 @pytest.mark.benchmark
 def test_a_million_moves_a_side():
-    k = np.arange(1_000_000)
-    places = zip((k % 1000 * 0.1).tolist(), (k // 1000 * 0.5).tolist(), (np.sin(k * 0.01) * 2 - 3).tolist())
-    head, foot = PATH.split("X10 F300")[0], "G0 Z20\nM5\nM30\n"
-    one = mnc.run(head + "F300\n" + "".join(f"X{x:.3f} Y{y:.3f} Z{z:.3f}\n" for x, y, z in places) + foot, "g43", SETUP)
-    begun = time.perf_counter()
-    assert mnc.prove(one, one).verdict == "same motion"
-    assert time.perf_counter() - begun < 10
+    one = wave(1_000_000)
+    for other, verdict in ((one, "same motion"), (wave(1_000_000, 0.01), "different")):
+        begun = time.process_time()
+        assert mnc.prove(one, other).verdict == verdict
+        assert time.process_time() - begun < 10
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize("setup", [SETUP, BLANK])
+def test_five_hundred_moves_a_side(setup):
+    one, other = wave(500, setup=setup), wave(500, 0.01, setup)
+    begun = time.process_time()
+    assert mnc.prove(one, other).counts == {"depth": 1}
+    assert time.process_time() - begun < 1
 
 
 # What is given and what is shown.
