@@ -151,8 +151,10 @@ class Drilling:
         stretch = Stretch(self.bulk, first, end)
         if min(stretch.n, stretch.runs[0][0]) < FEWEST:
             return 0
-        here = start = self.standing()
+        here, made = self.standing(), m.recorder.made
+        start = here
         k = begun = new = 0
+        most = int(min(m.recorder.most, 1 << 60))  # rows
         plan: list[tuple[Act, int]] = []
         for stop, key in stretch.runs:
             stop = min(stop, stretch.n - 1)
@@ -160,6 +162,10 @@ class Drilling:
                 act = here.acts.get(key)
                 if act and act.sure:
                     count = stop - k if act.then is here else 1
+                    if made + count * len(act.visit.rows) > most:  # the other tier says at which block
+                        self.carry_out(plan, start, first + begun, stretch.places[begun : k + 1])
+                        return k
+                    made += count * len(act.visit.rows)
                     plan.append((act, count))
                     here, k, new = act.then, k + count, 0 if count >= FEWEST else new
                     continue
@@ -172,7 +178,7 @@ class Drilling:
                 if act is None:
                     return k
                 here = start = act.then
-                begun = k
+                begun, made = k, m.recorder.made
         self.carry_out(plan, start, first + begun, stretch.places[begun : k + 1])
         return k
 
@@ -186,7 +192,7 @@ class Drilling:
         if definition is not None:  # the words of its block count no more, but for what is modal
             modal = {p.name: definition.values.get(p.name) for p in definition.cycle.parameters() if p.modal}
             values |= {"called": definition.cycle, "modal values": modal, "extra": definition.extra}
-            key += definition.cycle, *modal.values()
+            key += definition.cycle, *(value for value in modal.values() if isinstance(value, float))
         near = self.known.setdefault(key, [])
         found = next((one for one in near if not one.values.differences(values)), None)
         if found is None:
@@ -205,13 +211,16 @@ class Drilling:
         """Obey one block that leads to a place (2,), and note what it does; None if that is not to be repeated."""
         m, flow, before = self.machine, self.flow, (self.reads(), self.flow.standing(), self.flow.begun + 1)
         known, here.acts[key] = here.acts.get(key), None
-        flow.current, said = block, list[Alarm]()
+        flow.current, said, noted = block, list[Alarm](), set[tuple[str, Span | None]]()
         try:
-            with m.within(noted=set(), alarms=said):  # also those that were given here before
+            with m.within(noted=noted, alarms=said):  # also those that were given here before
                 made = visit(m, place, partial(flow.obey, block))
         finally:
             for alarm in said:
-                m.warn(alarm.message, alarm.span, alarm.hint)
+                if (alarm.message, alarm.span) in noted:
+                    m.warn(alarm.message, alarm.span, alarm.hint)
+                else:
+                    m.alarms.append(alarm)
         spans = self.spans(block) if said else []
         warned = tuple(Warned(one.message, one.hint, spans.index(one.span) - 1) for one in said if one.span in spans)
         if made is None or m.ended or before != (self.reads(), flow.standing(), flow.begun) or len(said) > len(warned):

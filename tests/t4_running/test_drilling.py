@@ -134,6 +134,18 @@ def test_a_fault_in_a_late_group_stands_at_its_block(both, assert_equal, fault):
     assert not bulk.ok and bulk.alarms[-1].span.line == len(lines) - 19
 
 
+@pytest.mark.parametrize("most", [1000, 1400, 1999])
+def test_too_many_rows_are_told_at_their_block(both, assert_equal, most):
+    calls = "\n".join(f"{HEADS[0]}\nM98 P20 L9\nG80" for _ in range(60))
+    text = f"{HEAD}\n{calls}\n{SUBPROGRAM}"
+    bulk, single = (
+        mnclab.run(text, "g43", Setup(tools=TOOLS, settings={"undescribed": "accept", "most_rows": most, "bulk": on}))
+        for on in (True, False)
+    )
+    assert_equal(bulk, single)
+    assert not bulk.ok and "rows" in bulk.alarms[-1].message
+
+
 @pytest.mark.parametrize("change", ["G55", "G52 X3", "G68 X0 Y0 R30", "G91", "G20", "S500", "G95 F0.1", "F77", "G51 X0 Y0 P2"])
 def test_what_is_learned_holds_for_its_state_alone(both, assert_equal, change):
     """The same groups before and after something that changes what they do."""
