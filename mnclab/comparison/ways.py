@@ -73,7 +73,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     first = np.flatnonzero(np.append(True, new))
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
         amount, said = float(lower[k] if kind[k] == LOWER and lower[k] > 0 else off[k]), (a.said(i[k]), b.said(j[k]))
-        amount, said = told[k] if k in told and kind[k] != HIGHER else (amount, said)
+        amount, said = told[k] if k in told and (kind[k] != HIGHER or a.lathe) else (amount, said)
         until = a.until(i[k], b, j[k], tolerance)
         if kind[k] == ASIDE or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
             said = a.route(i[k], until), b.route(j[k], until)
