@@ -488,8 +488,8 @@ def test_a_whole_turn_is_no_standstill():
 
 def test_the_drum_is_the_same_on_a_machine_whose_kinematics_are_known():
     text = program(27, "L X+0 Y+0 R0\nL X+90", Q17=0)
-    plain, known = (mnc.run(text, "tnc-620", mnc.Setup(tools=TOOLS, stock=DRUM, **more)) for more in ({}, {"kinematics": "table-ac"}))
-    one, other = (found.workpiece(step=1.0) for found in (plain, known))
+    setups = (mnc.Setup(tools=TOOLS, stock=DRUM, **more) for more in ({}, {"kinematics": "table-ac"}))
+    one, other = (mnc.run(text, "tnc-620", each).workpiece(step=1.0) for each in setups)
     assert other.removed == pytest.approx(one.removed, rel=1e-9) and np.abs(one.heights - other.heights).max() < 1e-9
 
 
