@@ -83,13 +83,13 @@ def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Ar
     along = np.eye(3)[["XYZ".index(axis) for _, axis in ((0, "Z"), *axes)]]
     own = along[np.searchsorted(np.array([when for when, _ in axes]), path.step, "right")]
     if path.kinematics is not None:
-        turns = path.kinematics.orientation(path.rotary)
+        turns = path.kinematics.orientation(np.where((path.cylinder >= 0)[:, None], 0.0, path.rotary))
     else:
         turns = np.stack(frames)[np.searchsorted(np.array([when for when, _ in tilts]), path.step, "right")]
     end = np.einsum("nij,nj->ni", turns, own)
     end[end[:, 2] > UPRIGHT] = 0.0, 0.0, 1.0
     turned = np.append(False, (np.diff(path.rotary, axis=0) != 0).any(axis=1))[:n]
-    start = np.where(turned[:, None], np.concatenate([end[:1], end[:-1]]), end)
+    start = np.where((turned & (path.cylinder < 0))[:, None], np.concatenate([end[:1], end[:-1]]), end)
     found = np.stack([start, screwed(start, end, 0 * start, 0 * end, SHARE)[1], end], axis=1)
     if path.cylinders:
         found = on_drum(path, found)

@@ -145,7 +145,8 @@ def _turns(path: Toolpath) -> Iterator[tuple[Cylinder, Index, Array, Array]]:
     """The cylinders, the rows about whose axis the workpiece turns, and the angles (k,) before and after these, rad."""
     which, previous = _cylinder_of(path), np.concatenate([np.zeros((1, 3)), path.rotary[:-1]])
     for number, one in enumerate(path.cylinders):
-        rows = np.flatnonzero(which == number)
+        mine = which == number if path.kinematics is None else path.cylinder == number  # of others it says where they are
+        rows = np.flatnonzero(mine)
         before = np.where(path.cylinder[rows] == number, path.from_angle[rows], previous[rows, one.rotary])
         yield one, rows, before, path.rotary[rows, one.rotary]
 

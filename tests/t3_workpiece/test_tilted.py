@@ -211,3 +211,11 @@ def test_simultaneous_rows_are_named_and_not_cut():
     assert any("on which the tool turns" in note and "program:6" in note for note in turning.notes)
     assert any("on which the tool turns" in note and "program:6" in note for note in found.collisions().notes)
     assert not found.collisions().ok
+
+
+def test_a_probe_touches_what_a_tilted_tool_has_cut():
+    """A ball of radius 1 on the floor of a slot 6 deep on a plane that leans by 30 degrees: its middle stands 1 above that."""
+    touch = "TOOL CALL 2 Z\nL X+0 Y+0 FMAX\nTCH PROBE 0.0 REF. PLANE Q5 Z-\nTCH PROBE 0.1 X+0 Y+0 Z-6\n"
+    ball = Tool(radius=1, length=80, number=2, kind="probe")
+    found = run(plane(SLOT.replace("Z-3", "Z-6"), a=30) + touch, others={2: ball}, part="cut")
+    assert found.variables["Q5"] == pytest.approx((-6 + 1) / math.cos(math.pi / 6) - 1, abs=1e-9)

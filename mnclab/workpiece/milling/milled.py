@@ -308,7 +308,8 @@ class Milled(Engaged):
         if gaps is None:
             return False
         left = self.sweep.over(lambda x, y: gaps.left(x, y, *self.surface.sides(x, y)))
-        return bool((self.heights - self.floor - left > HOLLOW).any())
+        least = self.step if self.error > CHORD else HOLLOW  # beside a floor cut piece by piece thin slivers stand
+        return bool((self.heights - self.floor - left > least).any())
 
     def solid(self) -> Solid:
         """The top with its walls at their true places, the sides and the lower side of the blank; of a hollow part cells."""

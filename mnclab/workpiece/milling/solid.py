@@ -15,6 +15,7 @@ import numpy as np
 from mnclab.path.toolpath import Array, Index, Mask
 from mnclab.workpiece.milling.lattice import Lattice, divided, from_below, lattice_of, rows_at
 from mnclab.workpiece.milling.sections import straightened
+from mnclab.workpiece.part.pictures import zeros_of
 from mnclab.workpiece.workpiece import Solid
 
 if TYPE_CHECKING:
@@ -47,8 +48,6 @@ BLOCKS = 120  # cells along the longest side of a hollow part
 
 def of_cells(workpiece: Milled) -> Solid:
     """The closed surface of a part with overhangs: heights are exact, and upright walls right within a cell (by pyvista)."""
-    import pyvista
-
     sweep, (low, high) = workpiece.sweep, workpiece.bounds
     step = max(workpiece.step, float((high - low).max()) / BLOCKS)
     x, y, z = (a + step * (np.arange(int(np.ceil((b - a) / step)) + 2) - 0.5) for a, b in zip(low.tolist(), high.tolist()))
@@ -59,10 +58,7 @@ def of_cells(workpiece: Milled) -> Solid:
     for some, _, lower, upper in sweep.gaps.spans(px, py) if sweep.gaps else ():
         for begin, end in zip(lower, upper):
             off[:, some] = np.maximum(off[:, some], np.minimum(z[:, None] - begin, end - z[:, None]))
-    grid = pyvista.RectilinearGrid(x, y, z)
-    found = grid.contour([0.0], scalars=np.clip(off, -step, step).ravel()).triangulate()
-    points = np.asarray(found.points, dtype=np.float64).reshape(-1, 3)
-    faces = np.asarray(found.faces, dtype=np.int64).reshape(-1, 4)[:, :0:-1]
+    points, faces = zeros_of([x, y, z], np.clip(off, -step, step).ravel())
     a, b, c = points[faces].transpose(1, 0, 2)
     normal = np.cross(b - a, c - a)
     beside = (a + b + c) / 3 + step * normal / np.maximum(np.linalg.norm(normal, axis=1), SAME)[:, None]

@@ -152,6 +152,14 @@ def _face(region: Region, z: float, up: bool) -> tuple[Floats, Triangles]:
     return np.concatenate(corners), triangles.reshape(-1, 3)[:, :: 1 if up else -1]
 
 
+def zeros_of(axes: list[Floats], field: Floats) -> tuple[Floats, Triangles]:
+    """Points (n, 3) and triangles (m, 3) where a field over places along X, Y and Z, X running fastest, is 0: seen
+    counter-clockwise from where it is greater (by pyvista)."""
+    import pyvista
+
+    return _triangles(pyvista.RectilinearGrid(*axes).contour([0.0], scalars=field))
+
+
 def _triangles(found: Any) -> tuple[Floats, Triangles]:
     faces = found.triangulate().faces.reshape(-1, 4)[:, 1:] if found.n_cells else np.zeros((0, 3))
     return np.asarray(found.points, dtype=float).reshape(-1, 3), np.array(faces[:, ::-1], dtype=np.int64)

@@ -507,6 +507,13 @@ def test_a_whole_turn_is_no_standstill():
     assert part.removed == pytest.approx(math.pi * (625 - 324) * 7, rel=1e-3) and part.removed_by("tool").keys() == {1}
 
 
+def test_the_drum_is_the_same_on_a_machine_whose_kinematics_are_known():
+    text = program(27, "L X+0 Y+0 R0\nL X+90", Q17=0)
+    setups = (mnc.Setup(tools=TOOLS, stock=DRUM, **more) for more in ({}, {"kinematics": "table-ac"}))
+    one, other = (mnc.run(text, "tnc-620", each).workpiece(step=1.0) for each in setups)
+    assert other.removed == pytest.approx(one.removed, rel=1e-9) and np.abs(one.heights - other.heights).max() < 1e-9
+
+
 def test_what_turns_near_a_drum_is_not_judged():
     found = slot_on_a_drum("L X+0 Y+0 R0\nL X+90")
     assert found.collisions(stock=DRUM).notes == ("2 rows on which the tool turns not judged (program:16)",)
