@@ -40,6 +40,7 @@ RIGHT = {
     "strategies.trochoid step": 1.0,
     "profile": TURNED, "blank": 20.0, "step": 2.0, "plan": PLAN, "feeds": FEEDS, "infeeds": {"radial": (0.0, 0.1, 0.2)},
     "depths": (0.2, 0.4, 0.5), "positions": (0.0, 0.1, 0.2), "groove": mnc.schemes.grooves.Groove(-10, 30, 15, 20),
+    "Axis name": "A", "Kinematics table": (mnc.Axis("C"),),
     "tool": 3.0, "total": 1.0, "passes": 4, "pitch": 2.0,
     "schemes.threads.thread start": 5.0, "schemes.threads.thread end": -20.0, "schemes.grooves.plunges right": -10.0,
     "schemes.grooves.plunges width": 8.0, "schemes.grooves.side_steps width": 8.0, "rim": 20.0,
@@ -83,7 +84,7 @@ LEFT = {
 THINGS = {
     "Contour": SQUARE, "Region": REGION, "toolpath": RUN.toolpath, "Design": mnc.Design(BLANK), "Setup": mnc.Setup(),
     "Tool": Tool(5.0),
-    "run": RUN, "workpiece": RUN.workpiece(step=1.0), "profile": RUN.profile(),
+    "run": RUN, "axes": RUN.axes(), "workpiece": RUN.workpiece(step=1.0), "profile": RUN.profile(),
     "part": mnc.part.box((0, 0, -10), (10, 10, 0)),
     "box": mnc.blank.box(80, 60, 20), "cylinder": mnc.blank.cylinder(20, -60), "Circle": mnc.probing.Circle(0, 0, 10),
     "Line": mnc.probing.Line(0, 0, 0), "Plane": mnc.probing.Plane(0, 0, 0, (0, 0, 1)),
