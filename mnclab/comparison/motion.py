@@ -78,6 +78,11 @@ class Motion:
         return np.add.reduceat(self.path.lengths, self.row) if len(self) else np.empty(0)
 
     @cached_property
+    def tool_along(self) -> Array | None:
+        """The direction of the tool on the part at the end of each move (m, 3); None where the machine does not say it."""
+        return None if self.path.kinematics is None else self.path.directions[self.last]
+
+    @cached_property
     def turns(self) -> bool:
         """Whether a rotary axis stands anywhere but at zero."""
         return bool(self.rotary.any())

@@ -25,7 +25,11 @@ def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
     """
     found = np.linalg.norm(one.end[i] - other.end[j], axis=1)
     if one.turns or other.turns:
-        found = np.maximum(found, np.abs(one.rotary[i] - other.rotary[j]).max(axis=1) * ARM)
+        if one.tool_along is not None and other.tool_along is not None:  # two machines may turn by other axes
+            turned = np.linalg.norm(one.tool_along[i] - other.tool_along[j], axis=1)
+        else:
+            turned = np.abs(one.rotary[i] - other.rotary[j]).max(axis=1)
+        found = np.maximum(found, turned * ARM)
     kind = one.kind[i]
     found[kind != other.kind[j]] = np.inf
     arcs = np.flatnonzero((kind == Kind.ARC) & np.isfinite(found))
