@@ -289,13 +289,12 @@ def swing(
         slowest = float(np.linalg.norm(np.diff(linear, axis=0), axis=1).sum()) / most
         if slowest > (takes if math.isfinite(takes) else 0.0):
             takes = minutes = slowest
-    x, y, z = tips[-1].tolist()
     with m.within(label=label):
         for k in range(count):
             a, b, c = turning[k + 1].tolist()
             m.put(rotary=(a, b, c))
-            tip = tuple(tips[k + 1].tolist())
             way = float(ways[k])
+            tip = m.tip if way <= STILL else tuple(tips[k + 1].tolist())  # what stands, stands exactly
             if math.isinf(takes):
                 m.add_row(Kind.RAPID, tip, feed=math.inf)
             else:
@@ -306,7 +305,6 @@ def swing(
     m.log("rotary", m.rotary)
     came = np.sign(np.where(np.abs(after - before) > SAME, after - before, m.arrived))
     m.put(arrived=tuple(came.tolist()))
-    m.tip = (x, y, z)
     stand(m)
     if point is not None:
         m.set_register(point)

@@ -67,6 +67,8 @@ def summary(run: Run) -> dict[str, Any]:
     lengths, rapid = path.lengths, path.kind == Kind.RAPID
     with np.errstate(divide="ignore", invalid="ignore"):
         cutting_time = np.where(~rapid & (lengths > 0), lengths / path.feed * 60, 0.0)
+    turning = (path.kind == Kind.LINE) & (lengths == 0) & np.isfinite(path.time)  # rotary axes alone
+    cutting_time[turning] = path.time[turning]
     dwell = np.nansum(np.where(path.kind == Kind.DWELL, path.time, 0.0))
     return {
         "program": run.program.title,

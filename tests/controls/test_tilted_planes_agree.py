@@ -63,3 +63,17 @@ def test_a_probe_touches_with_the_tool_tilted(machine, led):
     tip = run.toolpath.end[-1]
     assert tip[2] == pytest.approx(3 - 3 * math.cos(math.radians(30)), abs=1e-7)
     np.testing.assert_allclose(tip + 3 * direction, [0, tip[1] - 3 * math.sin(math.radians(30)), 3], atol=1e-7)
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+@pytest.mark.parametrize("lean", [0, 30, 45])
+def test_the_skip_position_of_a_tilted_plane(machine, lean):
+    """The ball of radius 3 touches the plane's own floor: its pole below stands at Z0 of the plane where the plane is that floor,
+    and #5063 has the length offset on top (dialect fanuc)."""
+    part = mnclab.part.box((0, 0, -60), (200, 100, -20))
+    text = f"G21 G90 G54 T2 M6\nG43 H2 G0 X30 Y20 Z50\nG68.2 X30 Y20 Z0 J{lean}\nG53.1\nG0 X0 Y0 Z40\nG31 Z-10 F100\nM30\n"
+    run = mnclab.run(text, "g43", setup=setup(machine, part=part))
+    assert run.ok, run.alarms
+    touched = 3 / math.cos(math.radians(lean)) - 3  # the centre stands 3 above the floor, the pole 3 before it along the tool
+    found = [run.variables[f"#{number}"] for number in (5061, 5062, 5063)]
+    np.testing.assert_allclose(found, [0, 0, touched + 120], atol=1e-6)

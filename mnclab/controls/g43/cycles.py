@@ -84,8 +84,9 @@ def keep_initial_level(m: Machine, kept: Values) -> None:
     x, y, z = m.programmed
     number = kept.setdefault("initial number", z / m.variable_unit)
     if m.settings["hole_data"] == "numbers":
-        kept["initial"] = m.to_machine((x, y, number * m.variable_unit))[2]
-    kept.setdefault("initial", m.to_machine(m.programmed)[2])
+        kept["initial"] = holes.level_of(m, (x, y, number * m.variable_unit))
+    if "initial" not in kept:
+        kept["initial"] = holes.level_of(m, m.programmed)
 
 
 def levels(m: Machine, values: Values, given: Given, kept: Values) -> None:

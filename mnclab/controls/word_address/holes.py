@@ -7,11 +7,17 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, ClassVar
 
+import numpy as np
+
 from mnclab.controls.word_address.motion import memory
+from mnclab.geometry import frames
+from mnclab.machine.axes import in_machine
 from mnclab.machine.cycle import Given, Values, param, too_many
 from mnclab.machine.machine import Machine
+from mnclab.machine.state import Place
 from mnclab.machining.depths import infeeds
 from mnclab.machining.steps import Go, Step
+from mnclab.path.toolpath import Array
 
 
 def position(axis: str, example: float) -> Any:
@@ -60,8 +66,25 @@ def no_pitch(m: Machine) -> Iterator[tuple[str, str]]:
 
 def initial_level(m: Machine, kept: dict[str, Any]) -> float:
     """Z of the program where the tool stood when the cycle was first called (`kept["initial"]`, of the machine)."""
-    x, y, _ = m.tip
-    return m.to_program((x, y, kept["initial"]))[2]
+    if m.shift is not None and m.tables.kinematics is None:
+        return float(kept["initial"]) - m.shift[2]
+    along, frame = _up(m)
+    return float((kept["initial"] - along @ frame[:3, 3]) / (along @ frame[:3, 2]))
+
+
+def level_of(m: Machine, point: Place) -> float:
+    """The height of a point of the program on the machine: along Z of the program, counted where the linear axes count from."""
+    if m.shift is not None and m.tables.kinematics is None:
+        return m.to_machine(point)[2]
+    along, frame = _up(m)
+    return float(along @ frames.apply(frame, point))
+
+
+def _up(m: Machine) -> tuple[Array, Array]:
+    """The direction (3,) of Z of the program as the linear axes go, on the side of their Z, and the map (4, 4) to them."""
+    frame = in_machine(m)
+    along = frame[:3, 2] / np.linalg.norm(frame[:3, 2])
+    return (along if along[2] >= 0 else -along), frame
 
 
 class AtHole(ABC):

@@ -204,7 +204,41 @@ def test_holes_on_a_tilted_plane_go_along_the_tool():
     np.testing.assert_allclose(deepest.end, [30, 10, 5] + r @ [15, 6, -8], atol=1e-9)
 
 
+@pytest.mark.parametrize("j", [0, 30, 60, 90])
+def test_g98_comes_back_to_the_initial_level_of_the_plane(j):
+    found = run(f"G68.2 X30 Y10 Z5 J{j}\nG53.1\nG0 X0 Y0 Z50\nG98 G81 X5 Y6 Z-10 R2 F100\nX15\nG80\nG69\nM30\n")
+    path = found.toolpath
+    rows = np.flatnonzero(path.line == 7)
+    expected = np.array([30, 10, 5]) + turn(0, j) @ [5, 6, 50]
+    np.testing.assert_allclose(path.end[rows[-1]], expected, atol=1e-9)
+
+
+def test_g98_over_a_table_that_has_turned():
+    """Without a plane coordinates are those of the linear axes: the tool goes back to Z50 of the datum."""
+    found = run("G0 A90 X0 Y0 Z50\nG98 G81 X0 Y0 Z-10 R2 F100\nX20\nG80\nM30\n")
+    axes, line = found.axes(), found.toolpath.line
+    for block in (5, 6):
+        assert axes.Z[np.flatnonzero(line == block)[-1]] == pytest.approx(-20 + 50 + LENGTH, abs=1e-9)
+
+
+def test_a_plane_through_the_tip():
+    """G68.3 without X Y Z: X0 Y0 Z0 is where the tool stands."""
+    for machine, angle in (("table-ac", "A30 C40"), ("head-bc", "B30 C40")):
+        found = run(f"G0 X10 Y20 Z5 {angle}\nG68.3\nG0 X0 Y0 Z0\nM30\n", machine)
+        before = found.toolpath[found.toolpath.line == 4].end[-1]
+        np.testing.assert_allclose(found.toolpath.end[-1], before, atol=1e-9)
+
+
+def test_turning_about_the_tip_takes_its_time():
+    """20 degrees at 1000 degrees a minute, while the tip stands: 1.2 s."""
+    found = run("G43.4 H1\nG1 A20 F1000\nG49\nM30\n")
+    rows = found.toolpath[found.toolpath.line == 5]
+    assert rows.time.sum() == pytest.approx(1.2, abs=1e-9) and (rows.end == rows.start).all()
+    assert "1.2 s at feed" in repr(found)
+
+
 REFUSED = [
+    ("G68.2 J45\nG41 D1\n", "5:1", "needs the tool square to the working plane, and it leans by 45 degrees"),
     ("G68.2 J45\nG68.2 J30\n", "5:1", "cannot stand while a tilted plane is active"),
     ("G68.2 J45\nG55\n", "5:1", "G68.2 is active"),
     ("G68.2 J45\nG68 X0 Y0 R30\n", "5:1", "G68.2 is active"),

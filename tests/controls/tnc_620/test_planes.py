@@ -14,6 +14,7 @@ import pytest
 from tools import running
 
 import mnclab as mnc
+from mnclab.geometry import frames
 
 MACHINES = ("table-ac", "head-bc", "head-b-table-c")
 CHAINS = {"table-ac": "CA", "head-bc": "CB", "head-b-table-c": "CB"}  # the axes from the part to the tool
@@ -458,3 +459,29 @@ def test_a_block_explained_names_the_positions() -> None:
     place = np.array(found.axes())[found.toolpath.line == 4][-1, :3]
     last = found.explain(4).stages[-1]
     assert last.name == "spindle, machine coordinates" and last.point == pytest.approx(place)
+
+
+DEPARTURES = [("LT LEN5", (35, -5)), ("LN LEN5", (30, -10)), ("CT CCA90 R5", (35, -10)), ("LCT X+45 Y-20 R3", (45, -20))]
+
+
+@pytest.mark.parametrize("dep, end", DEPARTURES, ids=[dep for dep, _ in DEPARTURES])
+@pytest.mark.parametrize("plane", ["SPA+90 SPB+0 SPC+0", "SPA+30 SPB+0 SPC+0", "SPA+0 SPB+45 SPC+0", "SPA+25 SPB+35 SPC+20"])
+@pytest.mark.parametrize("machine", [None, "table-ac"])
+def test_departures_in_a_tilted_plane_are_those_of_a_level_one(dep, end, plane, machine):
+    """The contour is Y0 of the plane, the tool of radius 5 to its right: along it, square to it, by a quarter circle of R5."""
+    text = (
+        f"BEGIN PGM T MM\nTOOL CALL 1 Z S1000 F500\nL X+0 Y+0 Z+100 R0 FMAX M3\nPLANE SPATIAL {plane} "
+        f"{'TURN FMAX' if machine else 'STAY'}\nL X-20 Y-20 Z+5 FMAX\nAPPR LT X+0 Y+0 LEN10 RR F300\nL X+30\n"
+        f"DEP {dep}\nEND PGM T MM\n"
+    )
+    run = mnc.run(text, "tnc-620", mnc.Setup(kinematics=machine, tools={1: mnc.Tool(radius=5, length=80, kind="mill")}))
+    assert run.ok, run.alarms
+    a, b, c = (math.radians(float(word[3:])) for word in plane.split())
+    turned = frames.spatial(a, b, c)[:3, :3]
+    np.testing.assert_allclose(turned.T @ (run.toolpath.end[-1] + run.toolpath.origin), [*end, 5], atol=1e-9)
+
+
+def test_the_retraction_of_a_plane_is_in_inches_where_the_program_is():
+    text = "BEGIN PGM T INCH\nTOOL CALL 1 Z S1000\nL Z+4 FMAX\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 TURN MB2 FMAX\nEND PGM T INCH\n"
+    run = mnc.run(text, "tnc-620", mnc.Setup(kinematics="table-ac", tools={1: mnc.Tool(radius=5, length=80, kind="mill")}))
+    assert run.ok and run.axes().Z[-1] == pytest.approx(6 * 25.4 + 80, abs=1e-9)

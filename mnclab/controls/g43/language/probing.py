@@ -117,6 +117,11 @@ def keep(m: Machine, with_length: bool = False) -> None:
     """Write down where the probe stands, in the unit of the program and degrees."""
     place = np.array(m.programmed)
     if with_length:
-        place += np.linalg.solve(m.matrix[:3, :3], memory(m).active_offsets)
+        x, y, z = memory(m).active_offsets
+        if (kinematics := m.tables.kinematics) is None:
+            place += np.linalg.solve(m.matrix[:3, :3], (x, y, z))
+        else:  # along the tool as coordinates are reckoned with it
+            along = kinematics.orientation(m.rotary if m.reckoned is None else m.reckoned)[:, 2]
+            place += np.linalg.solve(m.frames.matrix[:3, :3], along * z + (x, y, 0.0))
     for name, value in zip(parameters.PLACE, (*(place / m.variable_unit).tolist(), *angles(m)), strict=True):
         m.variables[name] = value

@@ -184,8 +184,9 @@ def square_to_tool(m: Machine, words: Words) -> None:
     written = [axis for axis in AXES if axis in words]
     if written and len(written) < 3:
         m.alarm("G68.3 needs X, Y and Z, or none of them", words[written[0]])
-    origin = numbers(m, words, AXES, length=True) if written else list(m.programmed)
-    outside = m.frames.before(TILT)[:3, :3]
+    whole = m.frames.before(TILT)
+    origin = numbers(m, words, AXES, length=True) if written else frames.apply(frames.inverse(whole), m.tip).tolist()
+    outside = whole[:3, :3]
     z = np.linalg.solve(outside, axes.direction(m))
     z /= np.linalg.norm(z)
     x = np.cross([0.0, 0.0, 1.0], z)

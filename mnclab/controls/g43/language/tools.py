@@ -8,7 +8,7 @@ from mnclab.controls.g43.state import ISO, NONE, Offsets, memory, undescribed, w
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import AXES, COMPENSATION, SIDES, first_word
 from mnclab.geometry import frames
-from mnclab.machine.axes import reckon
+from mnclab.machine.axes import leaning, reckon
 from mnclab.machine.control import FunctionTable, Words
 from mnclab.machine.machine import Machine
 from mnclab.path.tool import Tool
@@ -185,6 +185,9 @@ def radius_compensation(m: Machine, words: Words) -> None:
     """Takes effect with the next straight line in the plane: entry, change of side, exit."""
     undescribed(m, words)
     check_plane(m, words)
+    if degrees := leaning(m):
+        told = f"{words.code} needs the tool square to the working plane, and it leans by {degrees:.4g} degrees"
+        m.alarm(told, first_word(words), hint="G53.1 turns it square to a tilted plane")
     check_radius(m, words)
     m.change("side", SIDES[words.code])
 

@@ -16,10 +16,12 @@ import numpy as np
 from mnclab.controls.tnc_620.language import motion
 from mnclab.controls.tnc_620.language.auxiliary import feed
 from mnclab.controls.tnc_620.language.values import above_zero, refuse_on_cylinder
+from mnclab.geometry.curves import left
 from mnclab.machine.control import FunctionTable, Words
-from mnclab.machine.coordinates import PLANES
+from mnclab.machine.coordinates import NORMALS, PLANES, normal
 from mnclab.machine.machine import INF, Machine
 from mnclab.path.leads import Lead, way
+from mnclab.path.plane import basis
 from mnclab.path.toolpath import Kind
 
 FUNCTIONS = FunctionTable()
@@ -139,10 +141,10 @@ def last_point(m: Machine, words: Words, lead: Lead) -> tuple[float, float, floa
     first, second, across = PLANES[m.plane]
     if inside := next((words[axis] for axis in m.plane if axis in words), None):
         m.alarm(inside.untaken(words.code), inside)
-    here, along = np.array(m.tip), np.array(m.heading())
-    normal = np.array([-along[second], along[first]]) * lead.side
-    place, t = here[[first, second]] + m.radius * normal, along[[first, second]]
-    here[[first, second]] = way(lead._replace(side=-lead.side), place, place, -t).by
-    to = list(m.to_program(here))
+    flat = basis(np.array([NORMALS[m.plane] if m.shift is not None else normal(m.matrix, first, second)]))[0]
+    here, along = flat @ np.array(m.tip), flat @ np.array(m.heading())  # in the plane as it lies on the part
+    place, t = here[:2] + m.radius * lead.side * left(along[:2]), along[:2]
+    here[:2] = way(lead._replace(side=-lead.side), place, place, -t).by
+    to = list(m.to_program(here @ flat))
     to[across] = motion.end(m, motion.coordinates(m, words))[across]
     return to[0], to[1], to[2]

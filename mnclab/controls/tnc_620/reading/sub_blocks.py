@@ -222,8 +222,6 @@ def way(cursor: Cursor) -> None:
         if found := cursor.match(_WAY):
             name = found.group(1).upper()
             value = cursor.needed(f"{name} needs a number", begin, len(name))
-            if name == "MB" and cursor.inch:
-                value = from_inches(value)
             cursor.add("ABST" if name == "DIST" else name, value, begin)
         else:
             after_dialog(cursor, "SYSTEM", "reference system, 0 or 1")

@@ -77,7 +77,7 @@ _NAMED = re.compile(rf"(I?)(DR2(?=[ \t]*[+-])|{'|'.join(sorted(_ADDRESSES, key=l
 #: Addresses of lengths and of feeds per revolution or tooth: inches in a program that begins with INCH.
 LENGTHS = frozenset(
     "X Y Z IX IY IZ U V W R RI DI DIST LEN PR FU FZ DL DR DR2 L CCX CCY CCZ CCPR ABST D P1X P1Y P1Z P2X P2Y P2Z P3X P3Y P3Z PDX "
-    "PDY DX DY DP DEPTH PITCH SETUP PECKG RADIUS HEIGHT length M140:MB".split()
+    "PDY DX DY DP DEPTH PITCH SETUP PECKG RADIUS HEIGHT length MB M140:MB".split()
 )
 
 #: Addresses that belong to an M function when they stand directly behind it: `M103 F20` beside a feed F of the block.
