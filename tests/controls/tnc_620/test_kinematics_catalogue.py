@@ -330,3 +330,12 @@ def test_states_of_the_table(row):
     else:
         words = "it has no row: delete it" if rows == 0 else "would be record 17: there is room for 16"
         assert words in run.alarms[0].message
+
+
+def test_at_the_retraction_height_the_linear_axes_stand_while_a_rotary_axis_turns():
+    """Q408 above 0: the spindle axis goes up first, and the rotary axis turns alone; with 0 the probe goes round the sphere."""
+    for height, alone in ((100, True), (0, False)):
+        run = measured(cycle(451, THREE, Q406=0, Q408=height), sphere_setup(C_TABLE, C_TRUE))
+        axes = np.asarray(run.axes())
+        turning = np.flatnonzero(np.abs(np.diff(axes[:, 3:], axis=0)).max(axis=1) > 1e-9)
+        assert len(turning) and bool(np.abs(np.diff(axes[:, :3], axis=0)[turning]).max() < 1e-9) is alone

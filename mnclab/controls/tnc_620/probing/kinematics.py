@@ -8,6 +8,7 @@ which is the middle of the sphere. The last row corrects the kinematics, so that
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -72,7 +73,7 @@ class Measuring:
     touches: list[int] = field(default_factory=list)
 
 
-class MeasuringKinematics(ProbingCycle):
+class MeasuringKinematics(ProbingCycle, ABC):
     """Base of 451 and 452: the axes are measured one after the other, the others at their angles of incidence."""
 
     tilted: ClassVar[bool] = True
@@ -228,7 +229,7 @@ class MeasuringKinematics(ProbingCycle):
         to = {axis: at for axis, at in to.items() if abs(at - angles(m)[NAMES.index(axis)]) > math.degrees(STILL)}
         if not to:
             return
-        away = 0.0
+        away: float | None = None  # the linear axes stand
         if self.retraction_height:
             yield from with_axes(m, turned=False)
             if abs(m.programmed[2] + a.ball - self.retraction_height) > STILL:
@@ -260,9 +261,9 @@ class MeasuringKinematics(ProbingCycle):
         """By how much the sphere is off the preset on the part (3,), as far as the kinematics takes that in."""
         return np.zeros(3)
 
+    @abstractmethod
     def offset_error(self, m: Machine, axes: Mapping[str, MeasuredAxis], drift: Floats) -> Floats:
         """Q147 to Q149 (3,), mm."""
-        raise NotImplementedError
 
     def told(
         self, m: Machine, axes: Mapping[str, MeasuredAxis], found: Measuring, after: Kinematics, drift: Floats
