@@ -45,7 +45,7 @@ def clean(run, beside=25.0) -> bool:
     blank = None if run.stock is not None else fitting(run, beside)
     if run.stock is None and blank is None:
         return False
-    assert len(run.collisions(blank)) == 0, run.program.text  # rows of a tilted plane are not judged
+    assert len(run.collisions(blank)) == 0, run.program.text
     return True
 
 
@@ -61,7 +61,7 @@ STUDS = {"CYCL DEF 256": -5, "CYCL DEF 257": -5, "CYCL DEF 258": -5}  # which ar
 NOT_IN_SOLID = {"G304", "G204", "CYCL DEF 204", "G307", "G241", "CYCL DEF 241", "G74"}
 CUT_NOTHING = {*(f"GLOBAL DEF {number}" for number in (100, 105, 110, 111, 120, 125)), "CYCL DEF 20", "CYCL DEF 22",
                "CYCL DEF 247", "CYCL DEF 239", "CYCL DEF 12"}  # alone
-NOT_JUDGED = {f"CYCL DEF {number}" for number in (27, 28, 29, 39)}  # on a cylinder
+NOT_JUDGED = {f"CYCL DEF {number}" for number in (27, 28, 29, 39, 19)}  # on a cylinder; in a leaning plane
 PILOT = {"CYCL DEF 21"}  # whose few variants are too small for the tool: with its mill in the tests of roughing
 CYCLES = [
     (name, code)

@@ -41,6 +41,11 @@ def test_over_time_the_picture_ends_with_the_profile():
     assert last.get_xlabel() == "time, s" and last.lines[0].get_xdata()[-1] == pytest.approx(profile.time)
 
 
+def test_a_profile_of_another_run_is_refused():
+    with pytest.raises(mnc.Alarm, match="is that of their run, got <Profile"):
+        made("L A+30 F180").axes().plot(made("L X-20 F180\nL X+20").profile())
+
+
 def test_a_program_without_motion_says_so():
     assert "none moves" in mnc.run("", "mnc").axes().plot().alt
 
