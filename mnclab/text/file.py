@@ -5,7 +5,6 @@ from __future__ import annotations
 import codecs
 import os
 import re
-import secrets
 import stat
 import time
 import tomllib
@@ -112,7 +111,7 @@ def replaced(path: str | Path) -> Iterator[Path]:
             raise Alarm(f"{path} cannot be written: {NO_FILE}")
         mark = f".{zlib.crc32(os.fsencode(target.name)):08x}-"  # the same for each save of this file
         _swept(target.parent, mark)
-        beside = target.with_name(f"{mark}{secrets.token_hex(8)}{target.suffix}")
+        beside = target.with_name(f"{mark}{os.urandom(8).hex()}{target.suffix}")
         os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
     except (OSError, ValueError) as error:
         raise Alarm(f"{path} cannot be written: {reason(error)}") from None

@@ -14,7 +14,6 @@ from array import array
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import wraps
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -458,11 +457,22 @@ def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
     steps = np.diff(places, prepend=-1)
     cuts = np.flatnonzero(steps)  # where `some` goes on at another place of the others
     if len(cuts) <= FEW and (steps >= 0).all():  # whole stretches are copied faster than single rows
-        some = [np.split(column, cuts) for column in some]
-        others = [np.split(column, places[cuts]) for column in others]
-        return [np.concatenate([*chain(*zip(a, b, strict=True))]) for a, b in zip(some, others)]
+        return [_between(*pair, cuts, places[cuts]) for pair in zip(some, others, strict=True)]
     order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
     return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
+
+
+def _between(some: NDArray[Any], others: NDArray[Any], cuts: NDArray[Any], places: NDArray[Any]) -> NDArray[Any]:
+    """Stretches of one column between those of another, which is used up: its own are moved where they are, from the last one
+    on, because new memory would cost more than the work."""
+    stretches, ends = np.split(some, cuts)[1:], [*places, len(others)][1:]
+    others = others.astype(np.promote_types(some.dtype, others.dtype), copy=not others.flags.owndata)
+    others.resize(len(others) + len(some), refcheck=False)
+    for stretch, place, end, before in reversed([*zip(stretches, places, ends, cuts, strict=True)]):
+        behind = before + len(stretch)
+        others[place + behind : end + behind] = others[place:end]
+        others[place + before : place + behind] = stretch
+    return others
 
 
 class BulkBlocks(NamedTuple):

@@ -65,10 +65,9 @@ class Scan:
             count=np.where(lines, 0, self.count).astype(np.int32), clean=self.clean & ~lines,
         )  # fmt: skip
 
-    @property
-    def line(self) -> Places:
-        """The line (w,) of each word, from 0."""
-        return np.repeat(np.arange(len(self.count)), self.count)
+    def lines_of(self, words: Mask) -> Places:
+        """The lines, from 0, of the words that a mask (w,) marks."""
+        return np.searchsorted(np.cumsum(self.count), np.flatnonzero(words), "right")
 
 
 def line_starts(data: Bytes) -> Offsets:

@@ -84,8 +84,8 @@ def test_when_it_fails_the_old_file_stays_whole(tmp_path, fault):
 
 
 def test_a_name_that_is_taken_is_no_ones_to_remove(tmp_path, monkeypatch):
-    monkeypatch.setattr(file.secrets, "token_hex", lambda n: "taken")
-    name = f".{zlib.crc32(b'a'):08x}-taken"
+    monkeypatch.setattr(file.os, "urandom", lambda n: b"taken")
+    name = f".{zlib.crc32(b'a'):08x}-{b'taken'.hex()}"
     (tmp_path / name).write_text("mine")
     with pytest.raises(Alarm, match="File exists"):
         write(tmp_path / "a")

@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mnclab.controls.g43.reading import formulas
 from mnclab.controls.g43.reading.statements import (
@@ -105,10 +104,11 @@ class _Reader:
         first, last = self.tape(found)
         special = found.count > MOST_WORDS
         letter, value = found.letter, found.value
-        special[found.line[letter == ord("O")]] = True
+        odd = letter == ord("O")
         for address, is_odd in (("G", lambda v: np.isin(v, CALLS)), ("N", lambda v: (v == 0) | (v % 1 > 0))):
             words = np.flatnonzero(letter == ord(address))
-            special[found.line[words[is_odd(value[words])]]] = True
+            odd[words] = is_odd(value[words])
+        special[found.lines_of(odd)] = True
         special[:first] = special[last:] = True
         self.jumps = self.goes_to(found)
         self.found = found.without(special) if special.any() else found
@@ -149,8 +149,7 @@ class _Reader:
         codes = (found.letter == ord("M")) & np.isin(found.value, (97.0, 98.0, 99.0))
         if not codes.any():
             return False
-        lines: NDArray[np.int64] = found.line
-        return bool(np.isin(lines[codes], lines[found.letter == ord("P")]).any())
+        return bool(np.isin(found.lines_of(codes), found.lines_of(found.letter == ord("P"))).any())
 
     def program(self) -> Program:
         builder = self.builder
