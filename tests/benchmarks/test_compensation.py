@@ -80,7 +80,7 @@ def seconds(work):
     return time.process_time() - before, found
 
 
-def test_a_million_lines():
+def test_a_million_lines(told):
     points = ring(POINTS)
     way, path = programmed(points)
     polygon = shapely.Polygon(points)
@@ -111,6 +111,7 @@ def test_a_million_lines():
     made = compensate(path, RULES)
     assert len(made) > 1.4 * POINTS and (made.kind == Kind.ARC).sum() > 0.4 * POINTS
     middle = {name: float(np.median(found)) for name, found in times.items()}
+    told("compensation, 1M lines, rows and gouges", middle["the pass: a path of rows"], "shapely", middle["shapely.buffer"], 3)
     print(f"\n{POINTS} lines, median of {ROUNDS} rounds")
     print(f"{'':34s}{'cpu s':>8s}{'lines/s':>12s}{'to bare':>9s}{'to the pass':>13s}")
     for name, used in middle.items():

@@ -49,7 +49,7 @@ def seconds(work):
     return time.process_time() - before
 
 
-def test_a_million_moves():
+def test_a_million_moves(told):
     path = surface(MOVES)
     xyz = np.concatenate([path.start[:1], path.end])
     work = {"bare line": lambda: bare(xyz)}
@@ -63,6 +63,7 @@ def test_a_million_moves():
         for name, do in work.items():
             rounds[name].append(seconds(do))
     one = float(np.median(rounds["bare line"]))
+    told("figure of 1M moves, one view", float(np.median(rounds["kind, XY"])), "one bare line", one, 3, times=True)
     print(f"\n{MOVES} moves, median of {ROUNDS} rounds; auto draws two views, the bare line one")
     for name, times in rounds.items():
         print(f"{name:14s}{np.median(times):7.2f} s{np.median(times) / one:7.2f} bare lines")

@@ -83,19 +83,20 @@ def asked(command, **environment):
 
 
 @pytest.mark.parametrize("moves", [100_000, 1_000_000])
-def test_a_finished_surface(moves, tmp_path):
+def test_a_finished_surface(moves, tmp_path, told):
     file = tmp_path / "surface.nc"
     points = surface(moves)
     file.write_text("\n".join("G1 X{} Y{} Z{}".format(*point) for point in points.tolist()) + "\n")
-    told = asked([sys.executable, str(OURS), str(file)], PYTHONPATH=str(Path(__file__).parents[2]))
+    here = asked([sys.executable, str(OURS), str(file)], PYTHONPATH=str(Path(__file__).parents[2]))
     seconds, volume = draft(points + [2, 2, 0])
-    assert told["end"][0] == pytest.approx(volume, rel=0.02)
-    rows = {"mnclab": (told["cpu"], told["MiB"]), "draft in numpy": (seconds, None)}
+    assert here["end"][0] == pytest.approx(volume, rel=0.02)
+    rows = {"mnclab": (here["cpu"], here["MiB"]), "draft in numpy": (seconds, None)}
     if freecad := shutil.which("freecadcmd"):
         script = tmp_path / "simulate.py"
         script.write_text(FREECAD)
         simulated = asked([freecad, str(script)], MATERIAL=str(file))
         rows["FreeCAD's simulator"] = simulated["cpu"], simulated["MiB"]
+        told(f"removal, {moves // 1000}k moves", here["cpu"], "FreeCAD PathSim", simulated["cpu"], 2)
     print(f"\n{moves} moves{'':24s}cpu s     moves/s   to mnclab   peak MiB")
     for name, (cpu, most) in rows.items():
         memory = f"{most:11.0f}" if most else ""

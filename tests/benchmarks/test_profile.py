@@ -119,7 +119,7 @@ def seconds(work, rounds=ROUNDS):
     return float(np.median(found)), result
 
 
-def test_a_million_segments(tmp_path):
+def test_a_million_segments(tmp_path, told):
     points, feed = raster(SEGMENTS)
     path = Toolpath.chain(points, {"kind": np.full(SEGMENTS, Kind.LINE, np.uint8), "feed": feed})
     smooth = Limits(**{**vars(LIMITS), "jerk": (1e5, 1e5, 5e4)})
@@ -142,7 +142,8 @@ def test_a_million_segments(tmp_path):
     for name, (cpu, _) in rows.items():
         print(f"{name:38s}{cpu:9.3f}{SEGMENTS / cpu:13.0f}{cpu / rows['mnclab'][0]:10.1f}x")
     if klipper:
-        print(f"with the jerk limit {rows['Klipper'][0] / rows['mnclab, jerk limit'][0]:.1f} times Klipper's rate")
+        for name, held in (("mnclab", 50), ("mnclab, jerk limit", 10), ("mnclab, jerk limit, corners too", 8)):
+            told(f"profile of 1M{name.removeprefix('mnclab')}", rows[name][0], "Klipper", rows["Klipper"][0], held)
 
 
 def test_one_step_of_a_widget():

@@ -27,7 +27,7 @@ def best(work, rounds=5):
 
 
 @pytest.mark.parametrize("quadrant", [16, 64])
-def test_ten_islands(quadrant):
+def test_ten_islands(told, quadrant):
     task = large_task(2000)
     region, area = task.region, task.polygon(ARC * (1 - np.cos(np.pi / 4 / quadrant)))
     levels = []
@@ -42,7 +42,7 @@ def test_ten_islands(quadrant):
 
     ours = best(lambda: rings(region, task.radius, task.stepover))
     theirs = best(bare)
-    print(f"\n{quadrant} a quadrant: rings {ours:.3f} s, bare loop {theirs:.3f} s, ratio {ours / theirs:.2f}")
+    told(f"pocket, ten islands, {quadrant} a quadrant", ours, "shapely ring loop", theirs, 2, times=True)
     found = rings(region, task.radius, task.stepover)
     assert len(levels) <= len(found.passes)
     assert region.distance(np.vstack([ring.points for ring in found.passes])).min() == pytest.approx(3, abs=1e-9)

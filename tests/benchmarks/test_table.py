@@ -41,21 +41,31 @@ def places(count):
     return [(4 * (k % 250), 4 * (k // 250)) for k in range(count)]
 
 
-def iso(text, moves):
-    """Reads and runs a text on the ISO mill."""
+def mixture(count):
+    """Lines with what repeats left out, every tenth block an arc by radius."""
+    x, y = (np.arange(count) % 1000 * 0.25).tolist(), (np.arange(count) // 1000 * 0.5).tolist()
+    lines = [f"X{x[k]:.3f}" if k % 3 else f"X{x[k]:.3f} Z{-1 - k % 7 / 10:.1f}" for k in range(count)]
+    for k in range(0, count, 10):
+        lines[k] = f"G2 X{x[k]:.3f} Y{y[k]:.3f} R{4 + k % 3}" if k % 1000 else f"G1 X0 Y{y[k]:.3f}"
+        lines[k + 1] = f"G1 X{x[k + 1]:.3f} Y{y[k]:.3f}" + (f" F{500 + k % 300}" if k % 50 == 0 else "")
+    return lines
+
+
+def iso(text, moves, control="g43", **settings):
+    """Reads and runs a text on a mill."""
 
     def work():
-        run = mnclab.run(text, "g43", Setup(tools=TOOLS))
+        run = mnclab.run(text, control, Setup(tools=TOOLS, settings=settings))
         assert run.ok and len(run.toolpath) >= moves, run.alarms[:1]
 
     return work
 
 
-def klartext(blocks, moves):
+def klartext(blocks, moves, **settings):
     text = "\n".join(["BEGIN PGM A MM", "TOOL CALL 2 Z S1000 F800", "L Z+20 R0 FMAX M3", *blocks, "END PGM A MM"])
 
     def work():
-        run = mnclab.run(text, "tnc-620", Setup(tools=TOOLS, settings={"most_rows": 20_000_000}))
+        run = mnclab.run(text, "tnc-620", Setup(tools=TOOLS, settings={"most_rows": 20_000_000, **settings}))
         assert run.ok and len(run.toolpath) >= moves, run.alarms[:1]
 
     return work
@@ -69,6 +79,35 @@ def test_a_million_plain_blocks(rs274, told):
     )
     told("1M plain blocks, ISO mill", ours, "rs274", peer, 9)
     told("1M L, Klartext", lines, "ISO mill, G1", ours, 0.85)
+
+
+def test_mixed_blocks(rs274, told):
+    text = "G17 G90 G54\nG0 Z5\n" + "G1 X0 Y0 Z-1 F500\n" + "\n".join(mixture(500_000)) + "\n"
+    ours, peer = in_turn(iso(text, 499_000, "mnc"), rs274("mixed", "G21\n" + text + "M2\n"), rounds=3)
+    told("500k mixed blocks, MNC", ours, "rs274", peer, 8)
+
+
+def test_one_by_one(rs274, told):
+    words = surface(100_000)
+    text = "G17 G90 G54\nG0 Z5\nG1 X0 Y0 Z-1 F500\n" + "".join(f"G1 {line}\n" for line in words)
+    works = [iso(text, 99_000, name, bulk=False) for name in ("g43", "mnc")]
+    works.append(klartext([f"L {line}" for line in words], 99_000, bulk=False))
+    *ours, peer = in_turn(*works, rs274("single", "G21\n" + text + "M2\n"), rounds=3)
+    for name, time in zip(("ISO mill", "MNC", "Klartext"), ours, strict=True):
+        told(f"100k blocks one by one, {name}", time, "rs274", peer, 0.6)
+
+
+@pytest.mark.parametrize(("count", "held"), [(10_000, 2), (100_000, 0.5)])
+def test_edit_to_picture(rs274, told, count, held):
+    """A new number somewhere in a program that is there already: the new picture."""
+    text, edits = HEAD + "G1 F800 X0 Y0\n" + "".join(f"G1 {line}\n" for line in surface(count)), iter(range(1, 100))
+
+    def edited():
+        run = mnclab.run(text.replace("F800", f"F{800 + next(edits)}"), "g43", Setup(tools=TOOLS))
+        assert len(run.plot().png()) > 10_000
+
+    ours, peer = in_turn(edited, rs274("edited", text + "M2\n"))
+    told(f"edit to new picture, {count // 1000}k blocks", ours, "rs274", peer, held, times=True)
 
 
 def test_arcs(rs274, told):
