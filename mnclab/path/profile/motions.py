@@ -137,21 +137,31 @@ def bend_joints(before: Array, after: Array, limits: Limits, slack: Slack) -> Ar
     return np.where(size <= TANGENT * largest, np.inf, w)
 
 
-def curves(tangent: Array, length: Array, lines: Mask, limits: Limits, slack: Slack) -> Array:
+def curves(path: Toolpath, length: Array, limits: Limits, slack: Slack) -> Array:
     """v² (n - 1,) at the corners between rows that are short lines of a curve, 0 elsewhere; under a jerk limit.
-    `tangent` (n, 3) and `length` (n,) of all rows; `lines` (n,) says which of them are lines."""
-    mean = (length[1:] + length[:-1]) / 2
-    corner = lines[1:] & lines[:-1]
-    turn = np.where(corner[:, None], tangent[1:] - tangent[:-1], 0.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bend = np.where(corner[:, None], turn / mean[:, None], 0.0)
-        around = np.concatenate([np.zeros((1, 3)), bend, np.zeros((1, 3))])
-        change = np.abs(np.diff(around, axis=0)) / limits.axes("jerk")  # over each row
-        cubed = length / change.max(axis=1)
-        w = np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2
-        w = np.minimum((limits.axes("acceleration") / np.abs(bend)).min(axis=1), w)
-    fits = corner & (np.linalg.norm(turn, axis=1) * mean <= 8 * slack)
-    return np.where(fits, np.nan_to_num(w, nan=0.0, posinf=np.inf), 0.0)
+    `length` (n,) is that of the rows."""
+    n, lines = len(length), (path.kind == Kind.LINE) & (length > 0)
+    w = np.zeros(max(n - 1, 0))
+    for i in range(0, n - 1, PIECE):
+        j = min(n - 1, i + PIECE)
+        first, last = max(i - 1, 0), min(j + 2, n)  # rows, those beside the ones about the corners too
+        rows, here = length[first:last], slice(i - first, j - first)
+        corner = lines[first + 1 : last] & lines[first : last - 1]
+        mean = np.where(corner, (rows[1:] + rows[:-1]) / 2, 1.0)
+        turned, slow, slower = np.zeros(len(mean)), np.zeros(len(mean)), np.zeros(len(rows))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for k, (acceleration, jerk) in enumerate(zip(limits.axes("acceleration"), limits.axes("jerk"))):
+                turn = np.where(corner, np.diff((path.end[first:last, k] - path.start[first:last, k]) / rows), 0.0)
+                turned += turn * turn
+                turn /= mean  # the curvature
+                np.maximum(slow, np.abs(turn) / acceleration, out=slow)
+                np.maximum(slower, np.abs(np.diff(turn, prepend=0.0, append=0.0)) / jerk, out=slower)
+            cubed = rows / slower
+            found = np.minimum(1 / slow, np.cbrt(np.minimum(cubed[1:], cubed[:-1])) ** 2)
+        cut = slack[first : last - 1] if isinstance(slack, np.ndarray) else slack
+        fits = corner & (np.sqrt(turned) * mean <= 8 * cut)
+        w[i:j] = np.where(fits, found, 0.0)[here]
+    return w
 
 
 # Speeds are squared, w = v², in mm²/s²; lengths mm; accelerations mm/s². A straight row with the unit vector u is held by
@@ -275,10 +285,7 @@ def measure(
         last = [each[-1:].copy() for each in before]
     if jerky:
         if limits.corner_speed in ("tolerance", "deviation") and np.any(slack):
-            lines = (path.kind == Kind.LINE) & (rows.length > 0)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                tangent = (path.end - path.start) / rows.length[:, None]
-            w = curves(tangent, rows.length, lines, limits, slack)
+            w = curves(path, rows.length, limits, slack)
             corner = rows.corner[1:-1]
             if limits.corner_speed == "tolerance":
                 np.maximum(corner, np.minimum(w, np.minimum(rows.cap[1:], rows.cap[:-1])), out=corner)

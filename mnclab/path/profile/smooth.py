@@ -175,8 +175,9 @@ def _settle(v: Array, length: Array, cap: Array, a: Array, j: Array) -> Array:
         slower = np.minimum(low + ramps.gain(low, length[active], a[active], j[active]), high)
         node = active + (v1 > v0)
         np.minimum.at(v, node, slower)
-        near = np.concatenate([node - 1, node])
-        active = np.unique(near[(near >= 0) & (near < len(length))])
+        near = np.zeros(len(v) + 1, bool)  # the last stands for what is before the first
+        near[node], near[node - 1] = True, True
+        active = np.flatnonzero(near[: len(length)])
     with np.errstate(divide="ignore", invalid="ignore"):
         time = np.where(cap > 0, length / cap, 0.0)
     change = np.where(time > 2 * a / j, a * (time - a / j), j * time**2 / 4)
