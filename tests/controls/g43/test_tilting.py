@@ -185,7 +185,10 @@ def test_machine_coordinates_and_reference_points_are_those_of_the_axes():
     found = run("G68.2 X30 Y10 Z5 J45\nG53.1\nG0 Z10\nG53 G0 Z400\nG53 G0 X7 Y8\nM30\n")
     axes = found.axes()
     np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [7, 8, 400, 45], atol=1e-9)
-    axes = run("G0 A30\nG0 X10 Y20\nG28 Z100 A30\nG28 X10 Y20\nM30\n").axes()
+    for back in ("G28 Z100 A30\nG28 X10 Y20", "G28"):
+        axes = run(f"G0 A30\nG0 X10 Y20\n{back}\nM30\n").axes()
+        np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [0, 0, 0, 0], atol=1e-9)
+    axes = run("G68.2 X30 Y10 Z5 J45\nG53.1\nG0 Z10\nG28\nM30\n").axes()
     np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [0, 0, 0, 0], atol=1e-9)
 
 
