@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 
 from mnclab.machine.coordinates import LOG
 from mnclab.machine.setup import Magazine
-from mnclab.path.cylinder import SHARE, on_drum
+from mnclab.path.cylinder import SHARE, STILL, on_drum
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
-from mnclab.workpiece.cutting import UPRIGHT, Cutting
+from mnclab.workpiece.cutting import TURNED, UPRIGHT, Cutting
 from mnclab.workpiece.milling.gaps import Group
 from mnclab.workpiece.milling.moves import Moves, joined, moves_of
 from mnclab.workpiece.milling.tilted import screwed, tilted_groups
@@ -94,6 +94,27 @@ def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Ar
     if path.cylinders:
         found = on_drum(path, found)
     return found if (found[..., 2] < UPRIGHT).any() else None
+
+
+def round_tables(path: Toolpath, directions: Array | None) -> Toolpath:
+    """A path whose rows go round the axis of a table that alone turns, where the tool is square to it: the linear axes go evenly,
+    and seen from the part the tool winds about that axis as over a drum."""
+    if path.kinematics is None or directions is None:
+        return path
+    before = np.concatenate([path.rotary[:1], path.rotary[:-1]])
+    turned, lines = np.abs(path.rotary - before) > STILL, path.kinematics.axes_on_part(before)
+    kind, sweep, centre, axis = (getattr(path, name).copy() for name in ("kind", "sweep", "centre", "axis"))
+    for one, points, along in lines:
+        square = np.abs(np.einsum("nek,nk->ne", directions, along)).max(axis=1) < TURNED
+        alone = turned[:, one.number] & (turned.sum(axis=1) == 1)
+        rows = np.flatnonzero(np.isin(path.kind, (Kind.LINE, Kind.RAPID)) & alone & square)
+        points, along = points[rows] - path.origin, along[rows]
+        axis[rows], sweep[rows] = along, (path.rotary - before)[rows, one.number]
+        kind[rows[kind[rows] == Kind.LINE]] = Kind.ARC
+        centre[rows] = points + np.einsum("ni,ni->n", path.start[rows] - points, along)[:, None] * along
+    columns = {name: getattr(path, name) for name in path.all_but_ends()}
+    columns |= {"kind": kind, "sweep": sweep, "centre": centre, "axis": axis}
+    return path.replace(**columns, start=path.start, end=path.end)
 
 
 def start_known(
@@ -182,7 +203,7 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
     directions = directions_of_rows(path, tilts, axes)
-    path = lifted(path.on_workpiece(), lift, directions)
+    path = lifted(round_tables(path.on_workpiece(), directions), lift, directions)
     cutting = Cutting(path, tools, which, stock, arrived, known, directions)
     more, tilted = moves_of(cutting), tilted_groups(cutting)
     moves = joined([before.moves, more]) if before else more

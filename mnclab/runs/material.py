@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mnclab.machine.coordinates import LOG
-from mnclab.machine.cutting import TILT, directions_of_rows, lifted, start_known, tools_of_rows
+from mnclab.machine.cutting import TILT, directions_of_rows, lifted, round_tables, start_known, tools_of_rows
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
@@ -112,7 +112,7 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     said: dict[str, Any] = {"name": run.place_of_line, "origin": tuple(origin.tolist()), "reach": run.reach}
     said["across"] = run.control.across(run.settings)
-    path = lifted(path.on_workpiece(), lift, directions)
+    path = lifted(round_tables(path.on_workpiece(), directions), lift, directions)
     return Cutting(path, tools, which, body, *known, directions, fixtures, **said)
 
 

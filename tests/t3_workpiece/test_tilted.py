@@ -196,7 +196,7 @@ def test_a_fixture_beside_the_block():
 
 def test_where_the_tool_turns_near_the_block_is_told():
     """Far above it is clear; right on the block nobody knows, and a plane that is taken without a move turns somewhere, too."""
-    near = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+0 {} ABST0 F5000\nL Z+60 FMAX\nPLANE RESET MOVE ABST0 F5000\n"
+    near = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+30 TABLE ROT {} ABST0 F5000\nL Z+60 FMAX\nPLANE RESET MOVE ABST0 F5000\n"
     (note,) = run(near.format("MOVE")).collisions().notes  # the way back is clear
     assert note.endswith("on which the tool turns not judged (program:5)")
     stays = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+0 STAY\nL Z+60 FMAX\nPLANE RESET STAY\n"
@@ -205,12 +205,29 @@ def test_where_the_tool_turns_near_the_block_is_told():
 
 
 def test_simultaneous_rows_are_named_and_not_cut():
-    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30\nL Z+100 FMAX\nL A+0 FMAX\n")
+    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30 C+20\nL Z+100 FMAX\nL A+0 FMAX\n")
     turning = found.workpiece(step=1.0)
-    assert found.toolpath.directions[:, 1].min() < -0.49 and turning.removed < 60 * 8 * 2 / 10
+    assert found.toolpath.directions[:, 1].min() < -0.46 and turning.removed < 60 * 8 * 2 / 10
     assert any("on which the tool turns" in note and "program:6" in note for note in turning.notes)
     assert any("on which the tool turns" in note and "program:6" in note for note in found.collisions().notes)
     assert not found.collisions().ok
+
+
+def test_what_the_table_turns_about_one_axis_square_to_the_tool_is_cut():
+    """Points of the block against the tool at 4000 places of its way, where the axes have it: A turns while X goes."""
+    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30\nL Z+100 FMAX\nL A+0 FMAX\n")
+    part, chain = found.workpiece(step=1.0), found.setup.kinematics
+    share, none = np.linspace(0, 1, 4000), np.zeros(4000)
+    tips, along = chain.forward(np.stack([80 * share - 40, none, none + 78, 30 * share, none, none], axis=1), 80)
+    points = np.random.default_rng(2).uniform((-29, -10, -5), (29, 10, -0.05), (1500, 3))
+    behind = points[:, None] - tips
+    high = np.einsum("pki,ki->pk", behind, along)
+    aside = np.sqrt(np.maximum((behind**2).sum(axis=2) - high**2, 0))
+    off = np.where(high > 0, aside, np.inf).min(axis=1) - 4
+    sure = (np.abs(off) > 0.02) & (np.abs(high).min(axis=1) > 0.02)
+    gone = part.sweep.gaps.empty(*points.T)
+    assert (off < 0)[sure].sum() > 30 and sure.sum() > 500 and (gone == (off < 0))[sure].all()
+    assert "left out" not in " ".join(part.notes) and found.collisions().notes == ()
 
 
 def test_a_probe_touches_what_a_tilted_tool_has_cut():
