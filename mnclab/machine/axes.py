@@ -111,6 +111,20 @@ def leaning(m: Machine) -> float:
     return math.degrees(found) if found > SQUARE else 0.0
 
 
+def lean_to_tell(m: Machine) -> float:
+    """By how much the tool leans in a tilted plane that counts, degrees, until `tell_lean` has said it of this plane; else 0."""
+    counts = m.reckoned is not None and "tilt" in m.frames
+    return leaning(m) if counts and (m.frames["tilt"].tobytes().hex(), None) not in m.noted else 0.0
+
+
+def tell_lean(m: Machine) -> None:
+    """A warning at the first cut in a tilted plane to which the tool is not square: rotary axes were to turn first."""
+    if degrees := lean_to_tell(m):
+        m.noted.add((m.frames["tilt"].tobytes().hex(), None))
+        hint = "turn the rotary axes as the plane wants them before: to Q120 to Q122, with TURN or MOVE; by G53.1"
+        m.warn(f"the tool is not square to the tilted plane, it leans by {degrees:.4g} degrees", None, hint)
+
+
 def reckon(m: Machine, with_axes: Place | None) -> None:
     """Coordinates count from now on with A, B, C at angles, rad; None: as they stand, the tip is led. No axis moves."""
     m.put(reckoned=with_axes)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.machine import rows
-from mnclab.machine.axes import begin, change_length, stand
+from mnclab.machine.axes import begin, change_length, stand, tell_lean
 from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
@@ -163,6 +163,8 @@ class Machine(Placed):
     def _go(self, kind: Kind, point: tuple[float, float, float], feed: float, joint: Any = None) -> None:
         tip = self.to_machine(point)
         if tip != self.tip:
+            if kind == Kind.LINE:
+                tell_lean(self)
             self.add_row(kind, tip, feed=feed, joint=joint)
         elif joint is not None:
             self.alarm("an approach or a departure needs a move: the tool stands at its end already")

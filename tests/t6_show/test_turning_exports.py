@@ -95,7 +95,7 @@ def test_axes_that_are_not_at_zero_at_home_are_brought_there_first():
 
 @pytest.mark.parametrize(("machine", "turn"), [("table-ac", "A20"), ("table-ac", "C60"), ("head-bc", "B20"), ("head-bc", "C60")])
 def test_the_export_is_proven_the_same_motion(machine, turn):
-    """A tip that is led leaves its rows by up to 0.01 mm between them, as the axes do that the file leads: they are what counts."""
+    """A tip that is led leaves its rows by up to 0.01 mm between them, as in the file, whose axes are the same."""
     run = made(f"L X-30 Y+0 Z-5 R0 FMAX M3\nM128\nL X+30 {turn} F300\nM129\nL Z+50 FMAX", machine)
     text = "\n".join(lines(run))
     found = mnc.prove(run, mnc.run(text, setup=run.setup))

@@ -294,3 +294,9 @@ def test_leaving_the_travel_is_seen_where_the_axes_turn():
     found = run("G43.4 H1\nG0 X40 Y0\nG1 C180 F2000\nM30\n", limits=travel, ok=False)
     alarm = next(each for each in found.alarms if each.severity == "alarm")
     assert "X leaves the travel" in alarm.message and alarm.span.line == 6
+
+
+def test_a_cut_before_the_tool_is_square_is_warned_of():
+    for turned, many in (("", 1), ("G53.1\n", 0)):
+        told = run(f"G68.2 X30 Y10 Z5 J45\n{turned}G0 X0 Y0 Z10\nG1 X20 F500\nX30\nM30\n").alarms
+        assert len(told) == many and all("leans by 45 degrees" in each.message for each in told)

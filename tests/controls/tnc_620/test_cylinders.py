@@ -574,7 +574,7 @@ def test_what_turns_in_a_drum_at_rapid_or_with_a_spindle_that_stands_is_told():
 
 
 def test_rapids_below_the_edges_of_a_box_go_where_it_was_cut():
-    """Its edges come higher than the rapids between, which go back through the slot; before there was one they are in material."""
+    """Its edges come higher than the rapids between, which go back through the slot; without one they meet it."""
     text, box = program(27, "L X+0 Y+0 R0\nL X+90", Q17=0), ((-20, -30, -30), (20, 30, 30))
     found = run(text)
     assert "left out" not in " ".join(found.workpiece(stock=box, step=1.0).notes)
