@@ -15,7 +15,7 @@ that takes the time of the axis with the longest way; beside a move of the linea
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -368,18 +368,20 @@ def allowed(m: Machine) -> float:
     return float(own if own > 0 else m.settings.get("tcpm_tolerance", TOLERANCE))
 
 
-def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
-    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour."""
-    kinematics = chain(m)
+def check_angles(m: Machine, to: Angles, word: Word | Mapping[str, Word] | None = None) -> None:
+    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour: at its word
+    where all of the block are given."""
+    kinematics, words = chain(m), word if isinstance(word, Mapping) else dict.fromkeys(NAMES, word)
     if m.recorded_only or m.side:
-        m.alarm(f"rotary axes cannot turn {'within a contour' if m.recorded_only else 'under radius compensation'}", word)
+        what = "within a contour" if m.recorded_only else "under radius compensation"
+        m.alarm(f"rotary axes cannot turn {what}", next((words[name] for name in NAMES if name in words), None))
     for name, new, old in zip(NAMES, to, angles(m), strict=True):
         if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
-            m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)
+            m.alarm(f"the machine has no rotary axis {name}: {kinematics}", words.get(name))
     a, b, c = np.radians(to).tolist()
     if (axis := kinematics.beyond((a, b, c))) is not None:
         low, high = axis.limits
-        m.alarm(f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}", word)
+        m.alarm(f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}", words.get(axis.name))
 
 
 # The axes behind the rows of a path: X Y Z of the spindle reference and A B C, by which the tip is where a row says.

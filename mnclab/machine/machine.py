@@ -18,7 +18,7 @@ from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
 from mnclab.machine.rows import add_row, end_of_settled, settle
-from mnclab.machine.setup import Setup
+from mnclab.machine.setup import Setup, check_rows
 from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
 from mnclab.path.tool import Tool
@@ -42,6 +42,8 @@ class Machine(Placed):
     def __init__(self, control: Control, setup: Setup, flow: Flow) -> None:
         self.control, self.setup, self.flow = control, setup, flow
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
+        if "G54" in control.functions:
+            check_rows(setup)
         self.begin()
         if self.tables.kinematics is not None:
             begin(self)

@@ -364,6 +364,15 @@ def _again(values: Mapping[str, Any], kept: bool) -> Setup:
     return found.kept() if kept else found
 
 
+def check_rows(setup: Setup) -> None:
+    """An Alarm where datums bear the numbers of G54 to G59: their rows in a table are 1 to 6. A long table may have others."""
+    for row in setup.datums:
+        if 54 <= row <= 59 and not any(6 < other < 54 for other in setup.datums):
+            place = setup.source and setup.source.place_of("datums", str(row))
+            what = f"row {row} of datums is that of no work offset: G54 to G59 are the rows 1 to 6"
+            raise Alarm(what, place, hint=f"for G{row}: Setup(datums={{{row - 53}: …}})", source=setup.source)
+
+
 class Tables:
     """The tables of one run: copies that the program may write to."""
 

@@ -264,10 +264,20 @@ REFUSED = [
     ("G68.2 J45\nG53.1 P3\n", "5:7", "whole number from 0 to 2"),
     ("G43.4 H2\n", "4:1", "leads the tip of T1"),
     ("G43.4 H1\nG28 Z0\n", "5:1", "while the tip is led"),
-    ("G0 A130\n", "4:1", "A (rotary axis) must be from -120 to 120 degrees"),
-    ("G0 B5\n", "4:1", "the machine has no rotary axis B"),
+    ("G0 A130\n", "4:4", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("  G1 X3 A130 F500\n", "4:9", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G53 G0 A130\n", "4:8", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G43.4 H1\nG1 X3 C5 A130 F500\n", "5:10", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G28 X0 A130\n", "4:8", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G1 X1 B5 F500\n", "4:7", "the machine has no rotary axis B"),
+    ("G1 X1 F500\nG41 D1 X3\nX9\nX12 A3\n", "7:5", "cannot turn under radius compensation"),
+    ("G0 X1 U3\n", "4:7", "U is refused"),
+    ("G0 V3\n", "4:4", "V is refused"),
+    ("G0 W3\n", "4:4", "W is refused"),
+    ("G0 B5\n", "4:4", "the machine has no rotary axis B"),
     ("G43.5 H1\n", "4:1", "G43.4 and the angles"),
     ("G254\n", "4:1", "G268"),
+    ("G68.2 J45\nG53.1\nG254\n", "6:1", "G268"),
 ]
 
 

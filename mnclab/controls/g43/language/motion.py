@@ -13,8 +13,8 @@ from mnclab.controls.g43.settings import REFERENCES
 from mnclab.controls.g43.state import ISO, Offsets, Polar, memory, seconds_of_p, silent, undescribed, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import ARCS, AXES, CENTRE, SPINDLE, first_word
-from mnclab.machine.axes import in_machine, reckon, tip_below, travel, turn_axes
-from mnclab.machine.axes import reference as spindle_reference
+from mnclab.machine.axes import check_angles, in_machine, reckon, tip_below, travel, turn_axes
+from mnclab.machine.axes import check_angles, reference as spindle_reference
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.coordinates import AXES as ROTARY
 from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
@@ -33,7 +33,10 @@ def angles_of(m: Machine, words: Words) -> Angles | None:
     for k, axis in enumerate(ROTARY):
         if axis in words:
             found[k] = m.value(words[axis]) + (found[k] if m.modal["dimension"] == "G91" else 0.0)
-    return found[0], found[1], found[2]
+    a, b, c = found
+    if m.tables.kinematics is not None and (a, b, c) != angles(m):
+        check_angles(m, (a, b, c), words)
+    return a, b, c
 
 
 def go(m: Machine, to: dict[str, float], turned: Angles | None, rapid: bool, word: Word | None = None) -> None:
