@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine.axes import CHAIN, lengths_of_rows, references
 from mnclab.machine.coordinates import LOG
-from mnclab.machine.setup import Magazine
+from mnclab.machine.setup import Magazine, Setup
 from mnclab.path.cylinder import SHARE, STILL, on_drum
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
@@ -94,6 +95,27 @@ def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Ar
     if path.cylinders:
         found = on_drum(path, found)
     return found if (found[..., 2] < UPRIGHT).any() else None
+
+
+def true_path(path: Toolpath, setup: Setup, tools: Changes, first: float, chains: Changes = ()) -> Toolpath:
+    """A path where the tips truly are, by `Setup.true_kinematics` and the backlash of its axes, while X Y Z stand where the
+    control leads them. `tools` and `chains` are changes of the tool and of its kinematics, `first` the length before."""
+    true, known, n = setup.true_kinematics or setup.kinematics, path.kinematics, len(path)
+    if known is None or true is None or not n or (true == known and not chains and not any(each.backlash for each in true.sequence)):
+        return path
+    rows, stands, lengths = np.arange(n), path.rotary.copy(), lengths_of_rows(path.step, tools, first)
+    for axis in true.sequence:  # an axis stays behind by half of its backlash, on the side from which it came last
+        way = np.diff(path.rotary[:, axis.number], prepend=known.home[axis.number])
+        last = np.maximum.accumulate(np.where(np.abs(way) > STILL, rows, -1))
+        stands[:, axis.number] -= np.radians(axis.backlash) / 2 * np.where(last < 0, 0.0, np.sign(way[last]))
+
+    def there(points: Array) -> Array:
+        return true.tips(references(path, points, rows, lengths, chains), stands, lengths) - path.origin
+
+    end, columns = there(path.end), {name: getattr(path, name) for name in path.all_but_ends()}
+    columns |= {"rotary": stands, "centre": there(path.centre), "axis": there(path.end + path.axis) - end}
+    start = np.concatenate([there(np.broadcast_to(path.start[0], (n, 3)))[:1], end[:-1]])
+    return path.replace(**columns, start=start, end=end).annotated(kinematics=true)
 
 
 def round_tables(path: Toolpath, directions: Array | None) -> Toolpath:
@@ -199,7 +221,9 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     if before and not pieces:
         return before
     path = concatenate(pieces) if pieces else join([], m.recorder)
-    tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value, m.setup.true_tools)
+    changes = m.logs.changed("tool", m.step)
+    tools, which, lift = tools_of_rows(path.step, changes, m.setup.tools, m.logs.value, m.setup.true_tools)
+    path = true_path(path, m.setup, changes, m.tables.tools[0].effective_length, m.logs.changed(CHAIN, m.step))
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
     directions = directions_of_rows(path, tilts, axes)

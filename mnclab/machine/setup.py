@@ -253,7 +253,8 @@ class Setup:
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it (what is
     not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
     measures them, if there is one. `kinematics` are the rotary axes of the machine, or the name of one that has some; None:
-    three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, None: as the control has it. An
+    three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, which is what cuts
+    and probes; None: as the control has it. An
     Alarm names what cannot be.
 
     >>> mnc.Setup(tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))

@@ -55,6 +55,29 @@ def test_a_slot_on_a_plane_that_leans(kinematics):
     assert part.removed_by("line").keys() == {7} and sum(part.removed_by("row").values()) == pytest.approx(part.removed)
 
 
+@pytest.mark.parametrize("machine", ["pivot", "backlash", "measured"])
+def test_the_part_is_that_of_the_true_machine(machine):
+    """A pivot 0.1 in Y beside that of the control moves all that A30 cuts by (1 - Rx(30)) (0, 0.1, 0): by -0.1 (1 - cos 30) along
+    the slot's plane and -0.1 sin 30 across it. An axis with 0.4 degrees of backlash stays at 29.8. What is measured is right."""
+    a, c = mnc.Axis("A", centre=(0, 0.1, 50)), mnc.Axis("C")
+    true = mnc.Kinematics(table=(mnc.Axis("A", centre=(0, 0, 50), backlash=0.4) if machine == "backlash" else a, c))
+    believed = mnc.Kinematics(table=(a if machine == "measured" else mnc.Axis("A", centre=(0, 0, 50)), c))
+    found = run(plane(SLOT, a=30), kinematics=believed, true_kinematics=true)
+    part, s = found.workpiece(step=0.5), math.radians(30)
+    if machine == "backlash":
+        lag = math.radians(0.2)  # about the axis 50 above: the plane turns back with the tool
+        up = np.array([-math.sin(s - lag), math.cos(s - lag)])
+        foot = np.array([3 * math.sin(s), -3 * math.cos(s) - 50])  # of the floor at y' = 0, from the axis
+        turn = np.array([[math.cos(lag), math.sin(lag)], [-math.sin(lag), math.cos(lag)]])
+        y, z = turn @ foot + (0, 50)
+        assert part.at(0, 0) == pytest.approx(z + up[0] / up[1] * y, abs=1e-6)
+        return
+    aside, deep = (0.0, 0.0) if machine == "measured" else (-0.1 * (1 - math.cos(s)), -0.1 * math.sin(s))
+    corners = np.array([(aside - 4, deep - 3), (aside + 4, deep - 3), (aside + 4, 900), (aside - 4, 900)])
+    taken = Polygon(corners @ np.array([[math.cos(s), math.sin(s)], [-math.sin(s), math.cos(s)]])).intersection(box(-20, -25, 20, 0))
+    assert part.at(0, 0) == pytest.approx((deep - 3) / math.cos(s)) and part.removed == pytest.approx(60 * taken.area, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("tool", "volume"),
     [
