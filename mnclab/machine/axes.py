@@ -381,7 +381,8 @@ def check_angles(m: Machine, to: Angles, word: Word | Mapping[str, Word] | None 
     a, b, c = np.radians(to).tolist()
     if (axis := kinematics.beyond((a, b, c))) is not None:
         low, high = axis.limits
-        m.alarm(f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}", words.get(axis.name))
+        what = f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}"
+        m.alarm(what, words.get(axis.name))
 
 
 # The axes behind the rows of a path: X Y Z of the spindle reference and A B C, by which the tip is where a row says.

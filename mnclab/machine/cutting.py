@@ -101,7 +101,9 @@ def true_path(path: Toolpath, setup: Setup, tools: Changes, first: float, chains
     """A path where the tips truly are, by `Setup.true_kinematics` and the backlash of its axes, while X Y Z stand where the
     control leads them. `tools` and `chains` are changes of the tool and of its kinematics, `first` the length before."""
     true, known, n = setup.true_kinematics or setup.kinematics, path.kinematics, len(path)
-    if known is None or true is None or not n or (true == known and not chains and not any(each.backlash for each in true.sequence)):
+    if known is None or true is None or not n:
+        return path
+    if true == known and not chains and not any(axis.backlash for axis in true.sequence):
         return path
     rows, stands, lengths = np.arange(n), path.rotary.copy(), lengths_of_rows(path.step, tools, first)
     for axis in true.sequence:  # an axis stays behind by half of its backlash, on the side from which it came last

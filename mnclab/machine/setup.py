@@ -254,8 +254,7 @@ class Setup:
     not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
     measures them, if there is one. `kinematics` are the rotary axes of the machine, or the name of one that has some; None:
     three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, which is what cuts
-    and probes; None: as the control has it. An
-    Alarm names what cannot be.
+    and probes; None: as the control has it. An Alarm names what cannot be.
 
     >>> mnc.Setup(tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))
     Setup

@@ -74,7 +74,8 @@ def test_the_part_is_that_of_the_true_machine(machine):
         return
     aside, deep = (0.0, 0.0) if machine == "measured" else (-0.1 * (1 - math.cos(s)), -0.1 * math.sin(s))
     corners = np.array([(aside - 4, deep - 3), (aside + 4, deep - 3), (aside + 4, 900), (aside - 4, 900)])
-    taken = Polygon(corners @ np.array([[math.cos(s), math.sin(s)], [-math.sin(s), math.cos(s)]])).intersection(box(-20, -25, 20, 0))
+    turn = np.array([[math.cos(s), math.sin(s)], [-math.sin(s), math.cos(s)]])
+    taken = Polygon(corners @ turn).intersection(box(-20, -25, 20, 0))
     assert part.at(0, 0) == pytest.approx((deep - 3) / math.cos(s)) and part.removed == pytest.approx(60 * taken.area, rel=1e-6)
 
 

@@ -14,7 +14,7 @@ from mnclab.controls.g43.state import ISO, Offsets, Polar, memory, seconds_of_p,
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import ARCS, AXES, CENTRE, SPINDLE, first_word
 from mnclab.machine.axes import check_angles, in_machine, reckon, tip_below, travel, turn_axes
-from mnclab.machine.axes import check_angles, reference as spindle_reference
+from mnclab.machine.axes import reference as spindle_reference
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.coordinates import AXES as ROTARY
 from mnclab.machine.coordinates import PLANES, Angles, angles, set_angles
