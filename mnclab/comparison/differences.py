@@ -13,7 +13,7 @@ from mnclab.comparison.contour import of_contour
 from mnclab.comparison.diff import deviation, nearest_of, strokes_of
 from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.comparison.pairs import Pairs, alongside, apart, paired, same_places
+from mnclab.comparison.pairs import Pairs, alongside, apart, leaning, one_swing, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
@@ -157,14 +157,16 @@ def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: f
         return int(rows[0]), float("nan")
     cut, ends = other.cuts[there], motion.path.end[rows]
     begin, end, _ = strokes_of(other.path[other.row[cut] : other.last[cut] + 1], tolerance / 10)
-    off = np.linalg.norm(ends - nearest_of(ends, begin, end), axis=1)
+    moves = np.searchsorted(motion.row, rows, "right") - 1
+    off = np.maximum(np.linalg.norm(ends - nearest_of(ends, begin, end), axis=1), leaning(motion, moves, other, np.array([cut])))
     first = int(np.argmax(off > tolerance))
     return int(rows[first]), float(off[first]) if off[first] > tolerance else float("nan")
 
 
 def _side_by_side(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int) -> tuple[Index, Index]:
     """Of stretches that are one way divided otherwise, which cuts of both go along each other."""
-    ways = [np.cumsum(motion.lengths[motion.cuts[a:b]]) for motion, a, b in ((one, i, to_i), (other, j, to_j))]
+    cuts = one.cuts[i:to_i], other.cuts[j:to_j]
+    ways = [np.cumsum(np.maximum(motion.lengths[some], NO_WAY)) for motion, some in zip((one, other), cuts)]
     places = np.sort(np.concatenate([way / way[-1] for way in ways]))
     middles = (np.append(0.0, places[:-1]) + places)[np.diff(places, prepend=0.0) > 1e-4] / 2
     a, b = (np.minimum(np.searchsorted(way / way[-1], middles), len(way) - 1) for way in ways)
@@ -175,11 +177,12 @@ def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, t
     """Whether two stretches of cuts are one way divided otherwise: no place of either is off the other by more."""
     if i == to_i or j == to_j or max(to_i - i, to_j - j) > LONGEST:
         return False
-    paths = []
-    for motion, a, b in ((one, i, to_i), (other, j, to_j)):
-        cuts = motion.cuts[a:b]
-        if cuts[-1] - cuts[0] != b - a - 1 or motion.turns:  # there are rapids between
-            return False
+    paths, here, there = [], one.cuts[i:to_i], other.cuts[j:to_j]
+    if any(cuts[-1] - cuts[0] != len(cuts) - 1 for cuts in (here, there)):  # there are rapids between
+        return False
+    if max(leaning(one, here, other, there[:1]).max(), leaning(other, there, one, here[:1]).max()) > tolerance:
+        return one_swing(one, here, other, there, tolerance)
+    for motion, cuts in ((one, here), (other, there)):
         path = motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1]
         paths.append(path[path.is_motion & (path.lengths > NO_WAY)])
     p, q = paths

@@ -68,6 +68,7 @@ class Motion:
     link: Index
     at_end: tuple[float, int, int]
     left: dict[str, str]
+    positions: Any  # those of the axes behind each row, when asked for
 
     def __len__(self) -> int:
         return len(self.row)
@@ -81,6 +82,13 @@ class Motion:
     def tool_along(self) -> Array | None:
         """The direction of the tool on the part at the end of each move (m, 3); None where the machine does not say it."""
         return None if self.path.kinematics is None else self.path.directions[self.last]
+
+    @cached_property
+    def axes(self) -> Array:
+        """X Y Z of the axes (n, 6) behind the rows, less the length of the tool, and their angles as mm at `ARM`."""
+        found = np.array(positions := self.positions())
+        found[:, :3] -= np.multiply.outer(positions.lengths, [0.0, 0.0, 1.0]) + self.path.origin
+        return np.concatenate([found[:, :3], ARM * np.radians(found[:, 3:])], axis=1)
 
     @cached_property
     def turns(self) -> bool:
@@ -122,7 +130,7 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     at_end = (float(path.spindle[-1]), int(beside["coolant"][-1]), int(path.side[-1])) if n else (0.0, 0, 0)
     link = np.searchsorted(cuts, np.arange(len(first)))
     columns |= {"dwell": dwell, "pause": pause, "cuts": cuts, "link": link}
-    return Motion(path, run.programmed, rows[first], rows[last], **columns, at_end=at_end, left=_left(run))
+    return Motion(path, run.programmed, rows[first], rows[last], **columns, at_end=at_end, left=_left(run), positions=run.axes)
 
 
 def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:

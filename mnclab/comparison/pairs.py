@@ -23,13 +23,7 @@ def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
 
     The start is that of the move before, so one wrong end is one difference.
     """
-    found = np.linalg.norm(one.end[i] - other.end[j], axis=1)
-    if one.turns or other.turns:
-        if one.tool_along is not None and other.tool_along is not None:  # two machines may turn by other axes
-            turned = np.linalg.norm(one.tool_along[i] - other.tool_along[j], axis=1)
-        else:
-            turned = np.abs(one.rotary[i] - other.rotary[j]).max(axis=1)
-        found = np.maximum(found, turned * ARM)
+    found = np.maximum(np.linalg.norm(one.end[i] - other.end[j], axis=1), leaning(one, i, other, j))
     kind = one.kind[i]
     found[kind != other.kind[j]] = np.inf
     arcs = np.flatnonzero((kind == Kind.ARC) & np.isfinite(found))
@@ -42,6 +36,30 @@ def apart(one: Motion, i: Index, other: Motion, j: Index) -> Array:
         whole = np.where(turn > 0.5, np.minimum(turn / np.pi, 2) * radius, 0.0)  # another sense, other turns
         found[arcs] = np.maximum.reduce([found[arcs], whole, *(each / SPREAD for each in off)])
     return found
+
+
+def leaning(one: Motion, i: Index, other: Motion, j: Index) -> Array:
+    """How far (k,) the tools of two motions lean from one another, mm at `ARM`, at the ends of moves i (k,) and j (k,)."""
+    if not (one.turns or other.turns):
+        return np.zeros(len(i))
+    if one.tool_along is not None and other.tool_along is not None:  # two machines may turn by other axes
+        return np.asarray(np.linalg.norm(one.tool_along[i] - other.tool_along[j], axis=1) * ARM)
+    return np.asarray(np.abs(one.rotary[i] - other.rotary[j]).max(axis=1) * ARM)
+
+
+def one_swing(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> bool:
+    """Whether moves i (k,) and j (m,) that turn are one way of the same axes, which all run evenly along a row."""
+    if one.path.kinematics is None or one.path.kinematics != other.path.kinematics:
+        return False
+    ways = [each.axes[max(int(each.row[k[0]]) - 1, 0) : int(each.last[k[-1]]) + 1] for each, k in ((one, i), (other, j))]
+    behind = [np.append(0.0, np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))) for way in ways]
+    if abs(behind[0][-1] - behind[1][-1]) > tolerance or not behind[0][-1]:
+        return False
+    for k in (0, 1):
+        there = [np.interp(behind[k] / behind[k][-1], behind[1 - k] / behind[1 - k][-1], axis) for axis in ways[1 - k].T]
+        if np.abs(np.stack(there, axis=1) - ways[k]).max() > tolerance:
+            return False
+    return True
 
 
 def as_chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> int:

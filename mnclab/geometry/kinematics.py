@@ -15,6 +15,7 @@ the tool. Angles are in degrees in what people call, in rad (…, 3) for A, B, C
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -190,6 +191,14 @@ class Kinematics:
         if self.head:
             swung[..., :3, 3] = self.swung(down, angles) - down
         return np.asarray(found @ swung)
+
+    def axes_on_part(self, angles: Array) -> Iterator[tuple[Axis, Array, Array]]:
+        """The axes of the table, a point (n, 3) and the direction (n, 3) of each on the part at A, B, C (n, 3) rad."""
+        found = np.broadcast_to(np.eye(4), (len(angles), 4, 4)).copy()
+        found[:, :3, 3] = self.shift
+        for axis in reversed(self.table):
+            yield axis, moved(found, np.asarray(axis.centre)), found[:, :3, :3] @ np.asarray(axis.direction)
+            found = found @ axis.turns(angles[:, axis.number])
 
     def swung(self, hanging: Array, angles: Array) -> Array:
         """Where points of the tool (…, 3), counted from the spindle reference, are behind the head at A, B, C (…, 3) rad."""

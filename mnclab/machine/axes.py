@@ -15,7 +15,7 @@ that takes the time of the axis with the longest way; beside a move of the linea
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -109,6 +109,20 @@ def leaning(m: Machine) -> float:
         up = frame[:3, 2]
         found = max(found, math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool)))
     return math.degrees(found) if found > SQUARE else 0.0
+
+
+def lean_to_tell(m: Machine) -> float:
+    """By how much the tool leans in a tilted plane that counts, degrees, until `tell_lean` has said it of this plane; else 0."""
+    counts = m.reckoned is not None and "tilt" in m.frames
+    return leaning(m) if counts and (m.frames["tilt"].tobytes().hex(), None) not in m.noted else 0.0
+
+
+def tell_lean(m: Machine) -> None:
+    """A warning at the first cut in a tilted plane to which the tool is not square: rotary axes were to turn first."""
+    if degrees := lean_to_tell(m):
+        m.noted.add((m.frames["tilt"].tobytes().hex(), None))
+        hint = "turn the rotary axes as the plane wants them before: to Q120 to Q122, with TURN or MOVE; by G53.1"
+        m.warn(f"the tool is not square to the tilted plane, it leans by {degrees:.4g} degrees", None, hint)
 
 
 def reckon(m: Machine, with_axes: Place | None) -> None:
@@ -354,18 +368,21 @@ def allowed(m: Machine) -> float:
     return float(own if own > 0 else m.settings.get("tcpm_tolerance", TOLERANCE))
 
 
-def check_angles(m: Machine, to: Angles, word: Word | None = None) -> None:
-    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour."""
-    kinematics = chain(m)
+def check_angles(m: Machine, to: Angles, word: Word | Mapping[str, Word] | None = None) -> None:
+    """An Alarm where the machine lacks an axis that would turn, or one would leave its limits, and within a contour: at its word
+    where all of the block are given."""
+    kinematics, words = chain(m), word if isinstance(word, Mapping) else dict.fromkeys(NAMES, word)
     if m.recorded_only or m.side:
-        m.alarm(f"rotary axes cannot turn {'within a contour' if m.recorded_only else 'under radius compensation'}", word)
+        what = "within a contour" if m.recorded_only else "under radius compensation"
+        m.alarm(f"rotary axes cannot turn {what}", next((words[name] for name in NAMES if name in words), None))
     for name, new, old in zip(NAMES, to, angles(m), strict=True):
         if name not in kinematics.names and abs(new - old) > math.degrees(STILL):
-            m.alarm(f"the machine has no rotary axis {name}: {kinematics}", word)
+            m.alarm(f"the machine has no rotary axis {name}: {kinematics}", words.get(name))
     a, b, c = np.radians(to).tolist()
     if (axis := kinematics.beyond((a, b, c))) is not None:
         low, high = axis.limits
-        m.alarm(f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}", word)
+        what = f"{axis.name} (rotary axis) must be from {low:g} to {high:g} degrees, and would be {to[axis.number]:g}"
+        m.alarm(what, words.get(axis.name))
 
 
 # The axes behind the rows of a path: X Y Z of the spindle reference and A B C, by which the tip is where a row says.

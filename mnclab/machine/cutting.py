@@ -14,15 +14,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mnclab.machine.axes import CHAIN, lengths_of_rows, references
 from mnclab.machine.coordinates import LOG
-from mnclab.machine.setup import Magazine
-from mnclab.path.cylinder import SHARE, on_drum
+from mnclab.machine.setup import Magazine, Setup
+from mnclab.path.cylinder import SHARE, STILL, on_drum
 from mnclab.path.recorder import join
 from mnclab.path.tool import Tool
 from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath, concatenate
 from mnclab.text.program import Word
 from mnclab.workpiece.blank import Blank, Box, blank, from_datum, is_blank
-from mnclab.workpiece.cutting import UPRIGHT, Cutting
+from mnclab.workpiece.cutting import TURNED, UPRIGHT, Cutting
 from mnclab.workpiece.milling.gaps import Group
 from mnclab.workpiece.milling.moves import Moves, joined, moves_of
 from mnclab.workpiece.milling.tilted import screwed, tilted_groups
@@ -94,6 +95,50 @@ def directions_of_rows(path: Toolpath, tilts: Changes, axes: Changes = ()) -> Ar
     if path.cylinders:
         found = on_drum(path, found)
     return found if (found[..., 2] < UPRIGHT).any() else None
+
+
+def true_path(path: Toolpath, setup: Setup, tools: Changes, first: float, chains: Changes = ()) -> Toolpath:
+    """A path where the tips truly are, by `Setup.true_kinematics` and the backlash of its axes, while X Y Z stand where the
+    control leads them. `tools` and `chains` are changes of the tool and of its kinematics, `first` the length before."""
+    true, known, n = setup.true_kinematics or setup.kinematics, path.kinematics, len(path)
+    if known is None or true is None or not n:
+        return path
+    if true == known and not chains and not any(axis.backlash for axis in true.sequence):
+        return path
+    rows, stands, lengths = np.arange(n), path.rotary.copy(), lengths_of_rows(path.step, tools, first)
+    for axis in true.sequence:  # an axis stays behind by half of its backlash, on the side from which it came last
+        way = np.diff(path.rotary[:, axis.number], prepend=known.home[axis.number])
+        last = np.maximum.accumulate(np.where(np.abs(way) > STILL, rows, -1))
+        stands[:, axis.number] -= np.radians(axis.backlash) / 2 * np.where(last < 0, 0.0, np.sign(way[last]))
+
+    def there(points: Array) -> Array:
+        return true.tips(references(path, points, rows, lengths, chains), stands, lengths) - path.origin
+
+    end, columns = there(path.end), {name: getattr(path, name) for name in path.all_but_ends()}
+    columns |= {"rotary": stands, "centre": there(path.centre), "axis": there(path.end + path.axis) - end}
+    start = np.concatenate([there(np.broadcast_to(path.start[0], (n, 3)))[:1], end[:-1]])
+    return path.replace(**columns, start=start, end=end).annotated(kinematics=true)
+
+
+def round_tables(path: Toolpath, directions: Array | None) -> Toolpath:
+    """A path whose rows go round the axis of a table that alone turns, where the tool is square to it: the linear axes go evenly,
+    and seen from the part the tool winds about that axis as over a drum."""
+    if path.kinematics is None or directions is None:
+        return path
+    before = np.concatenate([path.rotary[:1], path.rotary[:-1]])
+    turned, lines = np.abs(path.rotary - before) > STILL, path.kinematics.axes_on_part(before)
+    kind, sweep, centre, axis = (getattr(path, name).copy() for name in ("kind", "sweep", "centre", "axis"))
+    for one, points, along in lines:
+        square = np.abs(np.einsum("nek,nk->ne", directions, along)).max(axis=1) < TURNED
+        alone = turned[:, one.number] & (turned.sum(axis=1) == 1)
+        rows = np.flatnonzero(np.isin(path.kind, (Kind.LINE, Kind.RAPID)) & alone & square)
+        points, along = points[rows] - path.origin, along[rows]
+        axis[rows], sweep[rows] = along, (path.rotary - before)[rows, one.number]
+        kind[rows[kind[rows] == Kind.LINE]] = Kind.ARC
+        centre[rows] = points + np.einsum("ni,ni->n", path.start[rows] - points, along)[:, None] * along
+    columns = {name: getattr(path, name) for name in path.all_but_ends()}
+    columns |= {"kind": kind, "sweep": sweep, "centre": centre, "axis": axis}
+    return path.replace(**columns, start=path.start, end=path.end)
 
 
 def start_known(
@@ -178,11 +223,13 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     if before and not pieces:
         return before
     path = concatenate(pieces) if pieces else join([], m.recorder)
-    tools, which, lift = tools_of_rows(path.step, m.logs.changed("tool", m.step), m.setup.tools, m.logs.value, m.setup.true_tools)
+    changes = m.logs.changed("tool", m.step)
+    tools, which, lift = tools_of_rows(path.step, changes, m.setup.tools, m.logs.value, m.setup.true_tools)
+    path = true_path(path, m.setup, changes, m.tables.tools[0].effective_length, m.logs.changed(CHAIN, m.step))
     arrived, known = (0, 0) if before else start_known(path, m.setup.start)
     tilts, axes = (m.logs.changed(name, m.step) for name in (TILT, LOG))
     directions = directions_of_rows(path, tilts, axes)
-    path = lifted(path.on_workpiece(), lift, directions)
+    path = lifted(round_tables(path.on_workpiece(), directions), lift, directions)
     cutting = Cutting(path, tools, which, stock, arrived, known, directions)
     more, tilted = moves_of(cutting), tilted_groups(cutting)
     moves = joined([before.moves, more]) if before else more

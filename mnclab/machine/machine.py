@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from mnclab.machine import rows
-from mnclab.machine.axes import begin, change_length, stand
+from mnclab.machine.axes import begin, change_length, stand, tell_lean
 from mnclab.machine.control import chosen
 from mnclab.machine.coordinates import Placed
 from mnclab.machine.flow import Flow, Recording
 from mnclab.machine.rows import add_row, end_of_settled, settle
-from mnclab.machine.setup import Setup
+from mnclab.machine.setup import Setup, check_rows
 from mnclab.machine.state import HISTORY, ROWS
 from mnclab.machine.touching import Contact, touch
 from mnclab.path.tool import Tool
@@ -42,6 +42,8 @@ class Machine(Placed):
     def __init__(self, control: Control, setup: Setup, flow: Flow) -> None:
         self.control, self.setup, self.flow = control, setup, flow
         self.settings = chosen(control.settings, setup.settings, control.name, setup.source)
+        if "G54" in control.functions:
+            check_rows(setup)
         self.begin()
         if self.tables.kinematics is not None:
             begin(self)
@@ -163,6 +165,8 @@ class Machine(Placed):
     def _go(self, kind: Kind, point: tuple[float, float, float], feed: float, joint: Any = None) -> None:
         tip = self.to_machine(point)
         if tip != self.tip:
+            if kind == Kind.LINE:
+                tell_lean(self)
             self.add_row(kind, tip, feed=feed, joint=joint)
         elif joint is not None:
             self.alarm("an approach or a departure needs a move: the tool stands at its end already")

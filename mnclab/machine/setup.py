@@ -253,8 +253,8 @@ class Setup:
     `true_tools` are the tools as they truly are, by the number of their row in the table, where they differ from it (what is
     not said of one is as the table has it): what cuts, and what probing and measuring find. `setter` is the tool setter that
     measures them, if there is one. `kinematics` are the rotary axes of the machine, or the name of one that has some; None:
-    three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, None: as the control has it. An
-    Alarm names what cannot be.
+    three axes, and A B C are positions of their own. `true_kinematics` is where they truly are, which is what cuts
+    and probes; None: as the control has it. An Alarm names what cannot be.
 
     >>> mnc.Setup(tools={1: mnc.Tool(diameter=10)}, stock=(80, 60, 20))
     Setup
@@ -362,6 +362,15 @@ def _again(values: Mapping[str, Any], kept: bool) -> Setup:
     """A setup of a copy or a pickle."""
     found = Setup(**values)
     return found.kept() if kept else found
+
+
+def check_rows(setup: Setup) -> None:
+    """An Alarm where datums bear the numbers of G54 to G59: their rows in a table are 1 to 6. A long table may have others."""
+    for row in setup.datums:
+        if 54 <= row <= 59 and not any(6 < other < 54 for other in setup.datums):
+            place = setup.source and setup.source.place_of("datums", str(row))
+            what = f"row {row} of datums is that of no work offset: G54 to G59 are the rows 1 to 6"
+            raise Alarm(what, place, hint=f"for G{row}: Setup(datums={{{row - 53}: …}})", source=setup.source)
 
 
 class Tables:

@@ -104,8 +104,8 @@ def on_workpiece(path: Toolpath) -> Toolpath:
     """The same rows where they are on the workpiece, which turns with the axis of the cylinder, before its rows and after
     them, too; itself without a cylinder.
 
-    A row at feed that turns is a helix about the axis, any other a straight line from end to end. The rotary axes
-    stand, and the feed is that along the workpiece.
+    A row at feed that turns is a helix about the axis, any other a straight line from end to end; rapids that turn have the
+    `centre`, `axis` and `sweep` of theirs beside it. The rotary axes stand, and the feed is that along the workpiece.
     """
     if not path.cylinders or not len(path):
         return path
@@ -117,9 +117,9 @@ def on_workpiece(path: Toolpath) -> Toolpath:
         arcs = kind[rows] == Kind.ARC  # the workpiece stands while they are made, or they would be no arcs
         centre[rows[arcs]] = one.on_workpiece(path.centre[rows[arcs]], before[arcs])
         axis[rows[arcs]] = one.on_workpiece(path.axis[rows[arcs]] + one.point, before[arcs]) - one.point
-        turns = rows[(np.abs(after - before) > STILL) & (kind[rows] == Kind.LINE)]
+        turns = rows[(np.abs(after - before) > STILL) & np.isin(kind[rows], (Kind.LINE, Kind.RAPID))]
         along = np.array(one.direction)
-        kind[turns], axis[turns] = Kind.ARC, along
+        kind[turns[kind[turns] == Kind.LINE]], axis[turns] = Kind.ARC, along
         sweep[turns] = path.rotary[turns, one.rotary] - before[np.searchsorted(rows, turns)]
         centre[turns] = one.point + ((start[turns] - one.point) @ along)[:, None] * along
     n = len(path)

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mnclab.geometry import frames
 from mnclab.geometry.arcs import centre_from_radius, sweep
+from mnclab.machine.axes import lean_to_tell
 from mnclab.machine.coordinates import PLANES
 from mnclab.machine.rows import LEAST_FEED, row_state
 from mnclab.path.toolpath import Kind
@@ -153,7 +154,7 @@ class Bulk:
             return 0
         rule = self.rule
         assert rule is not None
-        if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine):
+        if self.machine.per_rev or self.machine.pending or not rule.ready(self.machine) or lean_to_tell(self.machine):
             return 0
         end = self.before_word(first, end, rule.ends_at(self.machine))
         if end - first < SHORTEST:

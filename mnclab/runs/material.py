@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from mnclab.machine.axes import CHAIN
 from mnclab.machine.coordinates import LOG
-from mnclab.machine.cutting import TILT, directions_of_rows, lifted, start_known, tools_of_rows
+from mnclab.machine.cutting import TILT, directions_of_rows, lifted, round_tables, start_known, tools_of_rows, true_path
 from mnclab.path.limits import Limits
 from mnclab.path.profile import Profile
 from mnclab.path.tool import Tool
@@ -107,12 +108,13 @@ def cutting_of(run: Run, stock: Any = None, named: bool = True) -> Cutting:
     body = body if stock is None else from_datum(body, origin)
     tools, which, lift = _held(run)
     start, changed = run.setup.start, run.history.changed
+    path = true_path(path, run.setup, changed("tool"), run.first_length, changed(CHAIN))
     directions = directions_of_rows(path, changed(TILT), changed(LOG))
     known = start_known(path, start, *(() if any(start) or not named else _named(run)))
     fixtures = tuple(_placed(run, each) for each in run.setup.fixtures)
     said: dict[str, Any] = {"name": run.place_of_line, "origin": tuple(origin.tolist()), "reach": run.reach}
     said["across"] = run.control.across(run.settings)
-    path = lifted(path.on_workpiece(), lift, directions)
+    path = lifted(round_tables(path.on_workpiece(), directions), lift, directions)
     return Cutting(path, tools, which, body, *known, directions, fixtures, **said)
 
 

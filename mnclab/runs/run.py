@@ -155,8 +155,13 @@ class Run(Pictures):
 
     def axes(self) -> AxisPositions:
         """Where the axes of the machine stand at the end of every row of `toolpath`; see `AxisPositions`."""
+        return AxisPositions(self.toolpath, self.history, self.first_length)
+
+    @property
+    def first_length(self) -> float:
+        """Of the tool before the first one, mm."""
         first = self.setup.tools[0] if self.setup.tools and 0 in self.setup.tools else self.control.magazine[0]
-        return AxisPositions(self.toolpath, self.history, first.effective_length)
+        return first.effective_length
 
     @property
     def ok(self) -> bool:

@@ -119,12 +119,12 @@ class Cutting:
 
     @cached_property
     def round_(self) -> Mask:
-        """Rows (n,) that cut while the part turns about the axis of their arc, to which the tool is square."""
+        """Rows (n,) that may cut while the part turns about the axis of their `sweep`, to which the tool is square."""
         if not self.turning.any():
             return self.turning
         assert self.directions is not None
         along = np.abs(np.einsum("nek,nk->ne", self.directions, self.path.axis)).max(axis=1)
-        return np.asarray(self.turning & self.cuts & (self.path.kind == Kind.ARC) & (along < TURNED))
+        return np.asarray(self.turning & self.cuts & ~self.from_home & (self.path.sweep != 0) & (along < TURNED))
 
     def by_direction(self, some: Mask) -> Iterator[tuple[Array, Mask]]:
         """Some rows (n,) by the direction at their end: the frame (3, 3) along it, and which they are."""

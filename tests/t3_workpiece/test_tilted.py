@@ -55,6 +55,30 @@ def test_a_slot_on_a_plane_that_leans(kinematics):
     assert part.removed_by("line").keys() == {7} and sum(part.removed_by("row").values()) == pytest.approx(part.removed)
 
 
+@pytest.mark.parametrize("machine", ["pivot", "backlash", "measured"])
+def test_the_part_is_that_of_the_true_machine(machine):
+    """A pivot 0.1 in Y beside that of the control moves all that A30 cuts by (1 - Rx(30)) (0, 0.1, 0): by -0.1 (1 - cos 30) along
+    the slot's plane and -0.1 sin 30 across it. An axis with 0.4 degrees of backlash stays at 29.8. What is measured is right."""
+    a, c = mnc.Axis("A", centre=(0, 0.1, 50)), mnc.Axis("C")
+    true = mnc.Kinematics(table=(mnc.Axis("A", centre=(0, 0, 50), backlash=0.4) if machine == "backlash" else a, c))
+    believed = mnc.Kinematics(table=(a if machine == "measured" else mnc.Axis("A", centre=(0, 0, 50)), c))
+    found = run(plane(SLOT, a=30), kinematics=believed, true_kinematics=true)
+    part, s = found.workpiece(step=0.5), math.radians(30)
+    if machine == "backlash":
+        lag = math.radians(0.2)  # about the axis 50 above: the plane turns back with the tool
+        up = np.array([-math.sin(s - lag), math.cos(s - lag)])
+        foot = np.array([3 * math.sin(s), -3 * math.cos(s) - 50])  # of the floor at y' = 0, from the axis
+        turn = np.array([[math.cos(lag), math.sin(lag)], [-math.sin(lag), math.cos(lag)]])
+        y, z = turn @ foot + (0, 50)
+        assert part.at(0, 0) == pytest.approx(z + up[0] / up[1] * y, abs=1e-6)
+        return
+    aside, deep = (0.0, 0.0) if machine == "measured" else (-0.1 * (1 - math.cos(s)), -0.1 * math.sin(s))
+    corners = np.array([(aside - 4, deep - 3), (aside + 4, deep - 3), (aside + 4, 900), (aside - 4, 900)])
+    turn = np.array([[math.cos(s), math.sin(s)], [-math.sin(s), math.cos(s)]])
+    taken = Polygon(corners @ turn).intersection(box(-20, -25, 20, 0))
+    assert part.at(0, 0) == pytest.approx((deep - 3) / math.cos(s)) and part.removed == pytest.approx(60 * taken.area, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("tool", "volume"),
     [
@@ -196,7 +220,7 @@ def test_a_fixture_beside_the_block():
 
 def test_where_the_tool_turns_near_the_block_is_told():
     """Far above it is clear; right on the block nobody knows, and a plane that is taken without a move turns somewhere, too."""
-    near = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+0 {} ABST0 F5000\nL Z+60 FMAX\nPLANE RESET MOVE ABST0 F5000\n"
+    near = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+30 TABLE ROT {} ABST0 F5000\nL Z+60 FMAX\nPLANE RESET MOVE ABST0 F5000\n"
     (note,) = run(near.format("MOVE")).collisions().notes  # the way back is clear
     assert note.endswith("on which the tool turns not judged (program:5)")
     stays = "L Z+1 FMAX\nPLANE SPATIAL SPA+45 SPB+0 SPC+0 STAY\nL Z+60 FMAX\nPLANE RESET STAY\n"
@@ -205,12 +229,29 @@ def test_where_the_tool_turns_near_the_block_is_told():
 
 
 def test_simultaneous_rows_are_named_and_not_cut():
-    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30\nL Z+100 FMAX\nL A+0 FMAX\n")
+    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30 C+20\nL Z+100 FMAX\nL A+0 FMAX\n")
     turning = found.workpiece(step=1.0)
-    assert found.toolpath.directions[:, 1].min() < -0.49 and turning.removed < 60 * 8 * 2 / 10
+    assert found.toolpath.directions[:, 1].min() < -0.46 and turning.removed < 60 * 8 * 2 / 10
     assert any("on which the tool turns" in note and "program:6" in note for note in turning.notes)
     assert any("on which the tool turns" in note and "program:6" in note for note in found.collisions().notes)
     assert not found.collisions().ok
+
+
+def test_what_the_table_turns_about_one_axis_square_to_the_tool_is_cut():
+    """Points of the block against the tool at 4000 places of its way, where the axes have it: A turns while X goes."""
+    found = run("L X-40 Z+5 FMAX\nL Z-2 F500\nL X+40 A+30\nL Z+100 FMAX\nL A+0 FMAX\n")
+    part, chain = found.workpiece(step=1.0), found.setup.kinematics
+    share, none = np.linspace(0, 1, 4000), np.zeros(4000)
+    tips, along = chain.forward(np.stack([80 * share - 40, none, none + 78, 30 * share, none, none], axis=1), 80)
+    points = np.random.default_rng(2).uniform((-29, -10, -5), (29, 10, -0.05), (1500, 3))
+    behind = points[:, None] - tips
+    high = np.einsum("pki,ki->pk", behind, along)
+    aside = np.sqrt(np.maximum((behind**2).sum(axis=2) - high**2, 0))
+    off = np.where(high > 0, aside, np.inf).min(axis=1) - 4
+    sure = (np.abs(off) > 0.02) & (np.abs(high).min(axis=1) > 0.02)
+    gone = part.sweep.gaps.empty(*points.T)
+    assert (off < 0)[sure].sum() > 30 and sure.sum() > 500 and (gone == (off < 0))[sure].all()
+    assert "left out" not in " ".join(part.notes) and found.collisions().notes == ()
 
 
 def test_a_probe_touches_what_a_tilted_tool_has_cut():

@@ -546,3 +546,19 @@ def test_of_many_blocks_on_one_way_the_one_that_leaves_it_is_told(swapped):
         assert found.verdict == "different" and found.first.lines[not swapped] == number
     good = [mnc.run(head + text + "G0 Z5\nM30\n", "g43") for text in (pairs[45][0], chords[0])]
     assert mnc.prove(*good, tolerance=0.005, allow="chords").verdict == "same motion"
+
+
+def test_a_tool_that_turns_on_the_way_that_another_goes_upright():
+    """Under M128 the tip keeps to its line while the table leans by 20 degrees: 2 sin(1) of 100 mm after the first of ten rows.
+    A table that turns about the tool is the same motion on the part."""
+    head = "BEGIN PGM A MM\nTOOL CALL 1 Z S2000\nL X-30 Y+0 Z+50 R0 FMAX M3\nL Z-5 F500\nM128\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=5, length=80)}, kinematics="table-ac")
+    one, leans, turns = (
+        mnc.run(f"{head}L X+30 {axis} F300\nM129\nL Z+50 FMAX\nM2\nEND PGM A MM\n", "tnc-620", setup)
+        for axis in ("", "A+20", "C+60")
+    )
+    for first, second in ((one, leans), (leans, one)):
+        found = [each for each in mnc.prove(first, second).differences if each.kind == "geometry"]
+        assert [each.amount for each in found] == [pytest.approx(200 * math.sin(math.radians(1)), abs=1e-6)]
+        assert "3.4905 mm apart" in found[0].told
+        assert mnc.prove(first, turns).verdict == ("same motion" if first is one else "different")

@@ -174,3 +174,15 @@ def test_a_setting_too_large_for_any_number():
     for control in ("mnc", "g43", "jnc-t01"):
         with pytest.raises(Alarm, match="setting arc_tolerance .* must be a number from 0"):
             mnclab.run("", control, Setup(settings={"arc_tolerance": 10**400}))
+
+
+def test_datums_that_bear_the_numbers_of_their_codes():
+    """G54 to G59 are the rows 1 to 6; a table that is as long has a row 54, and a control without these codes all rows."""
+    for control in ("g43", "mnc"):
+        for row in (54, 59):
+            with pytest.raises(Alarm, match=rf"row {row} of datums .* rows 1 to 6") as caught:
+                mnclab.run("G0 X1\n", control, datums={1: (0, 0, 0), row: (1, 2, 3)})
+            assert caught.value.hint == f"for G{row}: Setup(datums={{{row - 53}: …}})"
+        assert mnclab.run("G0 X1\n", control, datums={6: (1, 2, 3), 53: (0, 0, 0), 54: (1, 2, 3), 60: (0, 0, 0)}).ok
+    shift = "0 BEGIN PGM A MM\n1 CYCL DEF 7.0 DATUM SHIFT\n2 CYCL DEF 7.1 #54\n3 L X+0 Y+0 Z+0 FMAX\n4 END PGM A MM\n"
+    assert mnclab.run(shift, "tnc-620", datums={54: (1, 2, 3)}).toolpath.end[-1].tolist() == [1, 2, 3]

@@ -227,3 +227,10 @@ def test_what_is_wrong_with_the_design_of_a_blank(tmp_path, text, place, said):
     with pytest.raises(Alarm) as told:
         load(written(tmp_path, text))
     assert said in str(told.value) and f":{place}: " in str(told.value)
+
+
+def test_a_row_of_a_code_is_shown_at_its_line(tmp_path):
+    setup = load(written(tmp_path, "[datums]\n1 = [0, 0, 0]\n54 = [1, 2, 3]\n"))
+    with pytest.raises(Alarm) as caught:
+        mnclab.run("G0 X1\n", "g43", setup)
+    assert "machine.toml:3:1: alarm: row 54 of datums" in caught.value.headline

@@ -91,3 +91,17 @@ def test_axes_that_are_not_at_zero_at_home_are_brought_there_first():
     chain = mnc.Kinematics(table=(mnc.Axis("C", home=90),))
     blocks = blocks_of(made("L X+10 Y+0 Z+50 R0 FMAX M3\nL C+180 F500", chain))
     assert blocks[2] == "G0 C90" and not any("C90" in block for block in blocks[3:])
+
+
+@pytest.mark.parametrize(("machine", "turn"), [("table-ac", "A20"), ("table-ac", "C60"), ("head-bc", "B20"), ("head-bc", "C60")])
+def test_the_export_is_proven_the_same_motion(machine, turn):
+    """A tip that is led leaves its rows by up to 0.01 mm between them, as in the file, whose axes are the same."""
+    run = made(f"L X-30 Y+0 Z-5 R0 FMAX M3\nM128\nL X+30 {turn} F300\nM129\nL Z+50 FMAX", machine)
+    text = "\n".join(lines(run))
+    found = mnc.prove(run, mnc.run(text, setup=run.setup))
+    assert found.verdict == "same motion" and not found.differences, found
+    if (machine, turn) == ("head-bc", "C60"):
+        return  # which turns the tool about itself alone
+    axis, angle = turn[0], int(turn[1:])
+    other = mnc.prove(run, mnc.run(re.sub(rf"{axis}{angle}\b", f"{axis}{angle - 0.01}", text), setup=run.setup))
+    assert other.verdict != "same motion" and other.first.amount > 0.001

@@ -64,6 +64,7 @@ class Memory(motion.Memory):
     doubt: Doubt | None = None
     absolute_centres: bool = False  # of arcs: G90.1
     references: dict[int, Offsets] = field(default_factory=dict)  # G28.1, G30.1, machine coordinates of the spindle, mm
+    angles: dict[int, Offsets] = field(default_factory=dict)  # of the rotary axes there, degrees
     intermediate: dict[str, float] = field(default_factory=dict)  # of the last G28 or G30
     released: Offsets | None = None  # where a probe has come free of the part, machine coordinates
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mnclab.path.tool import CHAMFER, Tool
-from mnclab.path.toolpath import Array, Index, Mask
+from mnclab.path.toolpath import Array, Index, Kind, Mask
 from mnclab.text.alarm import several
 from mnclab.workpiece.blank import Blank
 from mnclab.workpiece.clamped import Clamped, Placement
@@ -40,7 +40,7 @@ from mnclab.workpiece.milling.milled import Milled
 from mnclab.workpiece.milling.moves import Cutter, cut_up, moves_of
 from mnclab.workpiece.milling.raster import AT_ONCE
 from mnclab.workpiece.milling.swept import left_by
-from mnclab.workpiece.milling.tilted import meeting
+from mnclab.workpiece.milling.tilted import meeting, rows_round, wound
 from mnclab.workpiece.part import Part
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
@@ -76,21 +76,45 @@ def clampings(cutting: Cutting) -> Iterator[tuple[Cutting, int, Array | None]]:
     assert cutting.directions is not None
     begins = np.append(True, cutting.turning[1:] | cutting.turning[:-1])
     begins[1:] |= (np.abs(np.diff(cutting.directions[:, 2], axis=0)) > TURNED).any(axis=1)
-    ends = np.append(np.flatnonzero(begins)[1:], len(cutting))
+    ends, near = np.append(np.flatnonzero(begins)[1:], len(cutting)), {*rows_round(cutting).tolist()}
     for first, last in zip(np.flatnonzero(begins).tolist(), ends.tolist()):
-        some = slice(first, last)
-        if cutting.turning[first] or not cutting.path.is_motion[some].any():
+        if cutting.turning[first] or not cutting.path.is_motion[first:last].any():
+            yield from _wound(cutting, first) if first in near else ()
             continue
-        turn = frames_along(cutting.directions[first : first + 1, 2])[0]
-        place = Placement(turn.T)
-        before = cutting.until(first - 1) if first else replace(Cutting.of_nothing(cutting.stock), origin=cutting.origin)
-        own, upright = cutting.rows(some), bool(turn[2, 2] > UPRIGHT)
-        stock = cutting.stock if upright and not before.cuts.any() else Clamped(Milled(before), place)
-        if upright:
+        turn, own = frames_along(cutting.directions[first : first + 1, 2])[0], cutting.rows(slice(first, last))
+        if turn[2, 2] > UPRIGHT:
+            bare = not cutting.until(first - 1).cuts.any() if first else True
+            stock = cutting.stock if bare else Clamped(_left(cutting, first), Placement(turn.T))
             yield replace(own, directions=None, stock=stock), first, None
-            continue
-        fixtures = tuple(_seen(fixture, place) for fixture in cutting.fixtures)
-        yield replace(own.seen_along(turn), stock=stock, fixtures=fixtures), first, turn
+        else:
+            yield _aslant(own, turn, _left(cutting, first)), first, turn
+
+
+def _wound(cutting: Cutting, row: int) -> Iterator[tuple[Cutting, int, Array]]:
+    """A row on which a drum turns, piece by piece, each in the direction in its middle, where it may meet something at all."""
+    tool, path = cutting.tool(row), cutting.path
+    plain = not (above_edges(tool) or holder(tool) or cutting.fixtures or tool.kind in ALONG or path.kind[row] == Kind.RAPID)
+    if plain and path.spindle[row] * (1 if tool.hand == "right" else -1) > 0:
+        return
+    own, body = cutting.rows(slice(row, row + 1)), _left(cutting, row)
+    columns = {name: getattr(own.path, name) for name in own.path.all_but_ends()}
+    columns["kind"] = np.where(own.path.kind == Kind.ARC, Kind.LINE, own.path.kind)
+    _, (_, ups, _), (starts, ends) = wound(cutting, np.array([row]))
+    for turn, start, end in zip(frames_along(ups), starts, ends):
+        piece = replace(own, path=own.path.replace(**columns, start=start[None], end=end[None]))
+        yield _aslant(piece, turn, body), row, turn
+
+
+def _left(cutting: Cutting, row: int) -> Milled:
+    """What the rows before a row leave."""
+    return Milled(cutting.until(row - 1) if row else replace(Cutting.of_nothing(cutting.stock), origin=cutting.origin))
+
+
+def _aslant(own: Cutting, turn: Array, body: Milled) -> Cutting:
+    """Rows with the tool along Z of a frame (3, 3), over what is left of a blank."""
+    place = Placement(turn.T)
+    fixtures = tuple(_seen(fixture, place) for fixture in own.fixtures)
+    return replace(own.seen_along(turn), stock=Clamped(body, place), fixtures=fixtures)
 
 
 def _seen(fixture: Blank | Part, place: Placement) -> Blank | Part:
@@ -102,7 +126,7 @@ def _seen(fixture: Blank | Part, place: Placement) -> Blank | Part:
 
 def _not_judged(cutting: Cutting) -> Iterator[str]:
     """What is not looked at, in a sentence for people."""
-    if (out := meeting(cutting)).any():
+    if (out := meeting(cutting) & ~cutting.round_).any():
         yield f"{several(int(out.sum()), 'row')} on which the tool turns not judged ({cutting.lines(out)})"
 
 

@@ -43,8 +43,7 @@ def error_of(cutting: Cutting) -> float:
     """How far off what tilted tools cut may be, mm."""
     if cutting.tilted is None or too_many(cutting):
         return 0.0
-    rows = np.flatnonzero(cutting.round_)
-    return max(pieces_of(cutting, rows)[1], CHORD) if len(rows) else CHORD
+    return max(pieces_of(cutting, rows_round(cutting))[1], CHORD)
 
 
 def tilted_groups(cutting: Cutting) -> tuple[Group, ...]:
@@ -59,12 +58,26 @@ def tilted_groups(cutting: Cutting) -> tuple[Group, ...]:
 
 def _turned(cutting: Cutting) -> Iterator[Group]:
     """Rows of a drum that turns under the tool, piece by piece, and the tool upright at both ends of each row."""
-    path, rows = cutting.path, np.flatnonzero(cutting.round_)
-    if not len(rows) or cutting.directions is None:
-        return
+    row, up, tips = wound(cutting, rows_round(cutting))
+    yield from _as_groups(cutting, row, up[1], *tips)
+    for k, some in enumerate((np.diff(row, prepend=-1) != 0, np.diff(row, append=-1) != 0)):
+        yield from _as_groups(cutting, row[some], up[2 * k][some], tips[k][some], tips[k][some])
+
+
+def rows_round(cutting: Cutting) -> Index:
+    """Rows on which a drum turns under the tool that are not sure to be clear of it."""
+    return np.flatnonzero(cutting.round_ & meeting(cutting) if cutting.round_.any() else cutting.round_)
+
+
+def wound(cutting: Cutting, rows: Index) -> tuple[Index, list[Array], list[Array]]:
+    """Pieces (k,) of rows on which a drum turns under the tool: the row of each, the directions (k, 3) of the tool where it
+    begins, in its middle and where it ends, and the tips (k, 3) at both ends."""
+    path = cutting.path
     counts, _ = pieces_of(cutting, rows)
     owner, rank = counted(counts)
     row, share = rows[owner], np.stack([rank, rank + 0.5, rank + 1]) / counts[owner]
+    if not len(row) or cutting.directions is None:
+        return row, [np.zeros((0, 3))] * 3, [np.zeros((0, 3))] * 2
     axis, centre = path.axis[row], path.centre[row]
     local = []
     for end, side in ((path.start, 0), (path.end, 1)):
@@ -72,21 +85,13 @@ def _turned(cutting: Cutting) -> Iterator[Group]:
         frame = np.stack([np.cross(axis, up), axis, up], axis=1)
         local.append(np.einsum("kij,kj->ki", frame, end[row] - centre))
     first = cutting.directions[row, 0]
-    sides = np.cross(axis, first)
-
-    def up_at(part: Array) -> Array:
-        angle = (path.sweep[row] * part)[:, None]
-        return np.asarray(np.cos(angle) * first + np.sin(angle) * sides)
-
-    def tips(part: Array) -> Array:
-        up, (one, other) = up_at(part), local
-        here = one + (other - one) * part[:, None]
-        return np.asarray(centre + here[:, :1] * np.cross(axis, up) + here[:, 1:2] * axis + here[:, 2:] * up)
-
-    places = [tips(each) for each in (share[0], share[2])]
-    yield from _as_groups(cutting, row, up_at(share[1]), *places)
-    for some, part, tip in ((rank == 0, share[0], places[0]), (rank == counts[owner] - 1, share[2], places[1])):
-        yield from _as_groups(cutting, row[some], up_at(part)[some], tip[some], tip[some])
+    angle = (path.sweep[row] * share)[..., None]
+    ups = [np.cos(turned) * first + np.sin(turned) * np.cross(axis, first) for turned in angle]
+    tips = []
+    for up, part in ((ups[0], share[0]), (ups[2], share[2])):
+        here = local[0] + (local[1] - local[0]) * part[:, None]
+        tips.append(centre + here[:, :1] * np.cross(axis, up) + here[:, 1:2] * axis + here[:, 2:] * up)
+    return row, ups, tips
 
 
 def _as_groups(cutting: Cutting, row: Index, up: Array, start: Array, end: Array) -> Iterator[Group]:
@@ -103,6 +108,8 @@ def _as_groups(cutting: Cutting, row: Index, up: Array, start: Array, end: Array
 def pieces_of(cutting: Cutting, rows: Index) -> tuple[Index, float]:
     """In how many pieces rows turn (k,), and how far off what they cut may be, mm."""
     path = cutting.path
+    if not len(rows):
+        return np.zeros(0, dtype=np.int64), 0.0
     spoke = path.start[rows] - path.centre[rows]
     out = np.maximum(np.linalg.norm(spoke, axis=1), NOISE)
     across = np.abs(path.axis[rows]).argmin(axis=1)

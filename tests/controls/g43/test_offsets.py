@@ -132,3 +132,9 @@ def test_a_check_that_holds():
 def test_the_reference_point_of_rotary_axes():
     found = run(lines("G0 A90 C45|G28 A0"))
     assert np.degrees(found.toolpath.rotary[-1]).tolist() == [0, 0, 45]
+    for text, angles in (("G28", [0, 0, 0]), ("G28 X0 Y0 Z0", [90, 0, 45]), ("G30", [0, 0, 0]), ("G91 G28 Z0 C0", [90, 0, 0])):
+        found = run(lines(f"G0 X5 Y6 Z7 A90 C45|{text}"))
+        assert np.degrees(found.toolpath.rotary[-1]).tolist() == pytest.approx(angles)
+        assert places(found)[-1] == ([5, 6, 0] if "C0" in text else [0, 0, 0])
+    found = run(lines("G0 X3 A30 C10|G28.1|X9 A90 C45|G28"), dialect="linuxcnc")  # all of its parameters 5161 to 5166
+    assert np.degrees(found.toolpath.rotary[-1]).tolist() == pytest.approx([30, 0, 10]) and places(found)[-1] == [3, 0, 0]

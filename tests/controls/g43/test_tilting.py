@@ -185,7 +185,10 @@ def test_machine_coordinates_and_reference_points_are_those_of_the_axes():
     found = run("G68.2 X30 Y10 Z5 J45\nG53.1\nG0 Z10\nG53 G0 Z400\nG53 G0 X7 Y8\nM30\n")
     axes = found.axes()
     np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [7, 8, 400, 45], atol=1e-9)
-    axes = run("G0 A30\nG0 X10 Y20\nG28 Z100 A30\nG28 X10 Y20\nM30\n").axes()
+    for back in ("G28 Z100 A30\nG28 X10 Y20", "G28"):
+        axes = run(f"G0 A30\nG0 X10 Y20\n{back}\nM30\n").axes()
+        np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [0, 0, 0, 0], atol=1e-9)
+    axes = run("G68.2 X30 Y10 Z5 J45\nG53.1\nG0 Z10\nG28\nM30\n").axes()
     np.testing.assert_allclose([axes.X[-1], axes.Y[-1], axes.Z[-1], axes.A[-1]], [0, 0, 0, 0], atol=1e-9)
 
 
@@ -261,10 +264,20 @@ REFUSED = [
     ("G68.2 J45\nG53.1 P3\n", "5:7", "whole number from 0 to 2"),
     ("G43.4 H2\n", "4:1", "leads the tip of T1"),
     ("G43.4 H1\nG28 Z0\n", "5:1", "while the tip is led"),
-    ("G0 A130\n", "4:1", "A (rotary axis) must be from -120 to 120 degrees"),
-    ("G0 B5\n", "4:1", "the machine has no rotary axis B"),
+    ("G0 A130\n", "4:4", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("  G1 X3 A130 F500\n", "4:9", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G53 G0 A130\n", "4:8", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G43.4 H1\nG1 X3 C5 A130 F500\n", "5:10", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G28 X0 A130\n", "4:8", "A (rotary axis) must be from -120 to 120 degrees"),
+    ("G1 X1 B5 F500\n", "4:7", "the machine has no rotary axis B"),
+    ("G1 X1 F500\nG41 D1 X3\nX9\nX12 A3\n", "7:5", "cannot turn under radius compensation"),
+    ("G0 X1 U3\n", "4:7", "U is refused"),
+    ("G0 V3\n", "4:4", "V is refused"),
+    ("G0 W3\n", "4:4", "W is refused"),
+    ("G0 B5\n", "4:4", "the machine has no rotary axis B"),
     ("G43.5 H1\n", "4:1", "G43.4 and the angles"),
     ("G254\n", "4:1", "G268"),
+    ("G68.2 J45\nG53.1\nG254\n", "6:1", "G268"),
 ]
 
 
@@ -291,3 +304,9 @@ def test_leaving_the_travel_is_seen_where_the_axes_turn():
     found = run("G43.4 H1\nG0 X40 Y0\nG1 C180 F2000\nM30\n", limits=travel, ok=False)
     alarm = next(each for each in found.alarms if each.severity == "alarm")
     assert "X leaves the travel" in alarm.message and alarm.span.line == 6
+
+
+def test_a_cut_before_the_tool_is_square_is_warned_of():
+    for turned, many in (("", 1), ("G53.1\n", 0)):
+        told = run(f"G68.2 X30 Y10 Z5 J45\n{turned}G0 X0 Y0 Z10\nG1 X20 F500\nX30\nM30\n").alarms
+        assert len(told) == many and all("leans by 45 degrees" in each.message for each in told)

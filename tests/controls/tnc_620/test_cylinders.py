@@ -507,17 +507,80 @@ def test_a_whole_turn_is_no_standstill():
     assert part.removed == pytest.approx(math.pi * (625 - 324) * 7, rel=1e-3) and part.removed_by("tool").keys() == {1}
 
 
-def test_a_drum_by_the_kinematics_of_a_machine_is_not_cut_and_told():
-    """There the tip goes round the part in rows on which the tool turns: all of them are named."""
+IN_TABLE = mnc.Kinematics(table=(mnc.Axis("A"), mnc.Axis("C")))
+
+
+def on_machine(text: str, kinematics: mnc.Kinematics | str = IN_TABLE, up: float = 0.0, tool: mnc.Tool = TOOLS[1]) -> mnc.Run:
+    """The drum on the axis A of a machine, which lies `up` mm over its zero."""
+    made = mnc.Setup(tools={1: tool}, stock=DRUM.moved((0, 0, up)), presets={0: (0, 0, up)}, kinematics=kinematics)
+    found = mnc.run(text, "tnc-620", made)
+    assert found.ok, found.alarms
+    return found
+
+
+@pytest.mark.parametrize(("kinematics", "up"), [(IN_TABLE, 0.0), ("table-ac", 50.0)])
+def test_a_drum_by_the_kinematics_of_a_machine_is_cut(kinematics, up):
+    """The quarter of a turn above: the sector of a ring and half the tool at both ends, whichever way the rows are parted."""
     text = program(27, "L X+0 Y+0 R0\nL X+90", Q17=0)
-    found = mnc.run(text, "tnc-620", mnc.Setup(tools=TOOLS, stock=DRUM, kinematics="table-ac"))
-    (note,) = found.workpiece(step=1.0).notes
-    turning = np.append(False, (np.diff(found.toolpath.rotary, axis=0) != 0).any(axis=1)) & (found.toolpath.label > 0)
-    assert "on which the tool turns are left out (program:16)" in note and 30 < int(note.split()[0]) <= turning.sum()
+    part = on_machine(text, kinematics, up).workpiece(step=0.5)
+    plain = run(text).workpiece(stock=DRUM, step=0.5)
+    assert part.notes == () and part.removed == pytest.approx(plain.removed, rel=1e-4)
+    assert np.abs(part.heights - plain.heights).max() < 2e-3  # both floors are right within a micrometre
+    y = np.array([0.0, -5.0, -10.0])
+    assert np.abs(part.at(0 * y, y) - np.sqrt(324 - y * y)).max() < 1.5e-3
 
 
-def test_what_turns_near_a_drum_is_not_judged():
-    found = slot_on_a_drum("L X+0 Y+0 R0\nL X+90")
-    assert found.collisions(stock=DRUM).notes == ("2 rows on which the tool turns not judged (program:16)",)
-    box = found.workpiece(stock=((-20, -30, -30), (20, 30, 30)), step=1.0)  # whose edges come higher than the rapids between
-    assert "1 row on which the tool turns is left out (program:16)" in box.notes
+@pytest.mark.deep
+@pytest.mark.parametrize(("cycle", "contour", "q"), [
+    (27, "L X-30 Y-10 R0\nL X+50 Y+12", {}), (28, "L X+0 Y+0 RL\nL X+60 Y+5", {"Q20": 10}),
+    (29, "L X+0 Y+0 RL\nL X+60", {"Q20": 4}), (39, "L X+0 Y+0 RL\nL X+60", {}),
+])  # fmt: skip
+def test_a_machine_cuts_the_same_drum_as_none(cycle, contour, q):
+    text = program(cycle, contour, Q17=0, Q1=-4, **q)
+    plain, known = run(text).workpiece(stock=DRUM, step=1.0), on_machine(text).workpiece(step=1.0)
+    rho, phi, x = np.random.default_rng(4).uniform((21.1, -math.pi, -16), (24.9, math.pi, 18), (3000, 3)).T
+    gone, also = (
+        part.sweep.gaps.empty(x, -rho * np.sin(phi), rho * np.cos(phi)) for part in (plain, known)
+    )
+    assert "left out" not in " ".join(known.notes) and gone.sum() > 100 and (gone != also).sum() <= 3
+    assert known.removed == pytest.approx(plain.removed, rel=1e-3)
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_a_holder_over_a_drum_that_turns_is_judged(known):
+    """It begins 5 over a tip that goes 7 deep: 2 mm of it are in the drum. 8 over the tip it is free."""
+    text = program(27, "L X+0 Y+0 R0\nL X+30", Q17=0, Q10=7)
+    for begin, depth in ((5.0, 2.0), (8.0, None)):
+        tool = mnc.Tool(number=1, radius=3.5, holder=((20, begin),))
+        made = mnc.Setup(tools={1: tool}, stock=DRUM, **{"kinematics": IN_TABLE} if known else {})
+        run = mnc.run(text, "tnc-620", made)
+        found = run.collisions()
+        assert found.notes == () and {each.kind for each in found} == ({"holder"} if depth else set())
+        turned = [each for each in found if run.toolpath.rotary[each.row, 0] > 0]
+        assert bool(turned) == bool(depth) and all(each.depth == pytest.approx(depth, abs=2e-3) for each in turned)
+
+
+def test_what_turns_in_a_drum_at_rapid_or_with_a_spindle_that_stands_is_told():
+    head = "0 BEGIN PGM A MM\nTOOL CALL 1 Z S2000\nL X+0 Y+0 Z+40 R0 FMAX M3\nL Z+18 F100\n"
+    for block, kind in (("L A+40 FMAX", "rapid"), ("M5\nL A+40 F500", "spindle"), ("L A+40 F500", None)):
+        found = on_machine(f"{head}{block}\nL Z+40 FMAX\nM2\nEND PGM A MM\n")
+        told = found.collisions()
+        assert told.notes == () and {each.kind for each in told} == ({kind} if kind else set())
+        assert all(each.line in (5, 6) and each.depth == pytest.approx(7, abs=2e-3) for each in told)
+        part = found.workpiece(step=1.0)
+        ring = 7 * (625 - 324) / 2 * math.radians(40)
+        plain = on_machine(f"{head}L Z+40 FMAX\nM2\nEND PGM A MM\n").workpiece(step=1.0)
+        assert part.removed - plain.removed == pytest.approx(ring, rel=2e-3)  # half the tool at both ends
+
+
+def test_rapids_below_the_edges_of_a_box_go_where_it_was_cut():
+    """Its edges come higher than the rapids between, which go back through the slot; without one they meet it."""
+    text, box = program(27, "L X+0 Y+0 R0\nL X+90", Q17=0), ((-20, -30, -30), (20, 30, 30))
+    found = run(text)
+    assert "left out" not in " ".join(found.workpiece(stock=box, step=1.0).notes)
+    assert found.collisions(stock=box).ok and found.collisions(stock=box).notes == ()
+    first = "L A+90 FMAX\nL Z+35 FMAX\nL A+45 FMAX\nL A+0 FMAX\n"  # of the edge, 42 from the axis
+    swung = on_machine(f"0 BEGIN PGM A MM\nTOOL CALL 1 Z S2000\nL X+0 Y+0 Z+100 R0 FMAX M3\n{first}M2\nEND PGM A MM\n")
+    told = swung.collisions(stock=box)
+    assert told.notes == () and {(each.kind, each.line) for each in told} == {("rapid", 6), ("rapid", 7)}
+    assert max(each.depth for each in told) == pytest.approx(math.hypot(30, 30) - 35, abs=0.05)

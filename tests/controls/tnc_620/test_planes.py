@@ -485,3 +485,20 @@ def test_the_retraction_of_a_plane_is_in_inches_where_the_program_is():
     text = "BEGIN PGM T INCH\nTOOL CALL 1 Z S1000\nL Z+4 FMAX\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 TURN MB2 FMAX\nEND PGM T INCH\n"
     run = mnc.run(text, "tnc-620", mnc.Setup(kinematics="table-ac", tools={1: mnc.Tool(radius=5, length=80, kind="mill")}))
     assert run.ok and run.axes().Z[-1] == pytest.approx(6 * 25.4 + 80, abs=1e-9)
+
+
+def test_a_cut_before_the_axes_turn_to_the_plane_is_warned_of_once():
+    """STAY: X Y Z of the plane count as if A stood at Q120 = 30: X20 Y10 Z5 is (20, 10, 5) + (1 - Rx(-30)) (0, 0, 50) there,
+    whose axis lies 50 over the zero. Lines of many blocks are no exception, a tip that is led is one."""
+    plane = "PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY\n"
+    lines = "".join(f"L X+{k} F500\n" for k in range(60))
+    for text, where in ((f"{plane}L X+20 Y+10 Z+5 F500\nL X+5\n", 3), (f"L F500\n{plane}L Z+5 FMAX\n{lines}", 6)):
+        told = run(text, kinematics="table-ac").alarms
+        assert [(each.span.line, "by 30 degrees" in each.message, each.severity) for each in told] == [(where, True, "warning")]
+    for turned in ("L A+Q120 C+Q122 FMAX", "L X+1 A+Q120 F500", "M128\nL X+1 F500\nM129\nL A+Q120 FMAX"):
+        assert run(f"{plane}{turned}\nL X+20 F500\n", kinematics="table-ac").alarms == ()
+    for there in ("", "L A+Q120 FMAX\n"):
+        found = run(f"{plane}{there}L X+20 Y+10 Z+5 FMAX\n", kinematics="table-ac")
+        axes, z = found.axes(), 55 - 50 * math.cos(math.radians(30))
+        assert axes.A[-1] == pytest.approx(30 * bool(there))
+        assert [axes.X[-1], axes.Y[-1], axes.Z[-1] - axes.lengths[-1]] == pytest.approx([20, 10 - 25, z])

@@ -13,7 +13,7 @@ from mnclab.controls.g43.settings import REFERENCES
 from mnclab.controls.g43.state import ISO, Offsets, Polar, memory, seconds_of_p, silent, undescribed, whole
 from mnclab.controls.word_address import motion
 from mnclab.controls.word_address.motion import ARCS, AXES, CENTRE, SPINDLE, first_word
-from mnclab.machine.axes import in_machine, reckon, tip_below, travel, turn_axes
+from mnclab.machine.axes import check_angles, in_machine, reckon, tip_below, travel, turn_axes
 from mnclab.machine.axes import reference as spindle_reference
 from mnclab.machine.control import Control, FunctionTable, Modal, Words
 from mnclab.machine.coordinates import AXES as ROTARY
@@ -33,14 +33,9 @@ def angles_of(m: Machine, words: Words) -> Angles | None:
     for k, axis in enumerate(ROTARY):
         if axis in words:
             found[k] = m.value(words[axis]) + (found[k] if m.modal["dimension"] == "G91" else 0.0)
-    return found[0], found[1], found[2]
-
-
-def at_zero(m: Machine, words: Words) -> Angles | None:
-    """The rotary axes that are written at zero; None where none is."""
-    if words.keys().isdisjoint(ROTARY):
-        return None
-    a, b, c = (0.0 if axis in words else angle for axis, angle in zip(ROTARY, angles(m), strict=True))
+    a, b, c = found
+    if m.tables.kinematics is not None and (a, b, c) != angles(m):
+        check_angles(m, (a, b, c), words)
     return a, b, c
 
 
@@ -257,7 +252,9 @@ FUNCTIONS("M3 M4 M5", SPINDLE, group="spindle", phase="auxiliary", power_on="M5"
 
 
 # Reference points of the machine: G27 to G30, and G28.1 and G30.1, which set them.
-# The first is machine zero, the others are settings; all are places of the spindle.
+# The first is machine zero, the others are settings; all are places of the spindle. Rotary axes have theirs at 0 degrees, or
+# where they stood at G28.1, G30.1. The manual describes none of them: as at the controls that do, G28 alone moves all axes, the
+# rotary ones too, and with axes those that are written.
 
 TITLES = {"G28": "Return to the reference point", "G30": "Return to the second, third or fourth reference point"}
 SETTING = {"G28.1": "Set the first reference point", "G30.1": "Set the second reference point"}
@@ -287,9 +284,9 @@ def reference(m: Machine, words: Words) -> None:
         go(m, to, turned, rapid=True)
     memory(m).intermediate = dict(to)
     home = m.to_program(tip_at(m, number))
-    every = not to and turned is None
-    go(m, {axis: home[k] for k, axis in enumerate(AXES.lower()) if axis in to or every},
-              at_zero(m, words), rapid=True)  # fmt: skip
+    every, stand = not to and turned is None, memory(m).angles.get(number, (0.0, 0.0, 0.0))
+    a, b, c = (there if every or axis in words else here for axis, there, here in zip(ROTARY, stand, angles(m), strict=True))
+    go(m, {axis: home[k] for k, axis in enumerate(AXES.lower()) if axis in to or every}, (a, b, c), rapid=True)
 
 
 def refuse_crooked(m: Machine, words: Words, to: dict[str, float]) -> None:
@@ -337,5 +334,6 @@ def check(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("G28.1 G30.1", SETTING, phase="local", still=True, modal=False, source="LinuxCNC")
 def set_reference(m: Machine, words: Words) -> None:
-    """The present place of the spindle becomes the reference point. No motion."""
-    memory(m).references[1 if words.code == "G28.1" else 2] = spindle_reference(m)
+    """The present place of the spindle and of the rotary axes becomes the reference point. No motion."""
+    number = 1 if words.code == "G28.1" else 2
+    memory(m).references[number], memory(m).angles[number] = spindle_reference(m), angles(m)

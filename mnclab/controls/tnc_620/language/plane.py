@@ -1,7 +1,9 @@
 """PLANE in all its forms: the working plane tilted about the active datum, and how the rotary axes follow.
 
-A form says where the axes of the tilted system lie; the rest is common to all and to cycle 19. Without the kinematics of a
-machine TURN leaves the tip where it is on the workpiece, as rotary axes of L do.
+A form says where the axes of the tilted system lie; the rest is common to all and to cycle 19. With STAY no axis moves, and the
+program turns the rotary axes behind it to Q120 to Q122, "always to these" (manual, cycle 19): X Y Z of the plane count at once as
+if they stood there, wherever they stand. A cut before they do is warned of, cycles and RL, RR are refused until then. Without the
+kinematics of a machine TURN leaves the tip where it is on the workpiece, as rotary axes of L do.
 """
 
 from __future__ import annotations
