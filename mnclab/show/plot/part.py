@@ -23,7 +23,7 @@ from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.classes import number, ramp
 from mnclab.show.plot.lathe import BAR, CHUCK, FINISHED, chucks_of, insert_patches, named_insert
-from mnclab.show.plot.picture import SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, figure_of, write_legend
+from mnclab.show.plot.picture import LETTER_EM, SCALE, SIZE, SMALL, VIEWS, Foot, Picture, arrange, dress, figure_of, write_legend
 from mnclab.show.plot.sections import (
     CARD,
     CHORD,
@@ -181,10 +181,12 @@ def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -
     long, thick = min(3.4, width - 1.9), 0.1
     ax = picture.add_axes((1.0 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
     ax.imshow(np.linspace(0, 1, 256)[None], cmap=shades, extent=(low, high, 0, 1), aspect="auto")
-    inner = [each for each in ax.get_xticks().tolist() if 0.08 < (each - low) / (high - low) < 0.92]
+    letter, told = LETTER_EM * SMALL / 72 / long * (high - low), lambda value, _=None: number(round(value, 3))
+    clear = [letter * (len(told(end)) + 3) for end in (low, high)]  # half of both numbers, whose inner one is short, and air
+    inner = [each for each in ax.get_xticks().tolist() if low + clear[0] < each < high - clear[1]]
     ax.set(xticks=[low, *inner, high], yticks=[])  # its ends are told, and nothing stands in their way
     ax.tick_params(labelsize=SMALL, length=2, pad=1)
-    ax.xaxis.set_major_formatter(lambda value, _: number(round(value, 3)))
+    ax.xaxis.set_major_formatter(told)
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
 

@@ -72,7 +72,7 @@ class Gaps:
 
     @cached_property
     def deepest(self) -> Index:
-        """Those moves (k,) that matter where it is not asked which took a place: of plunges of a tool at one place the deepest."""
+        """Those moves (k,) that matter where nobody asks which took a place: of plunges of a tool at one place the deepest."""
         moves, ends = self.moves, np.stack([self.moves.start, self.moves.end])
         own = np.where(moves.ways <= STILL, -1, np.arange(len(moves)))  # another move is alone with its number
         key = np.column_stack([own, self.group, ends[0, :, :2].round(9), *moves.shape])
