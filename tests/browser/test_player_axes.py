@@ -158,12 +158,16 @@ def test_without_kinematics_the_page_has_no_axes(opened):
     assert page.get_by_role("button", name="Table turns").count() == page.get_by_role("button", name="Head").count() == 0
 
 
-SLOPE = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nPLANE SPATIAL SPA+0 SPB+25 SPC+0 TURN MB50 FMAX\nL X+8 Y-20 Z+0 F500\nL Y+20\n"
+SLOPE = (
+    "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nPLANE SPATIAL SPA+0 SPB+25 SPC+0 TURN MB50 FMAX\nL X+8 Y-20 Z+0 F500\n"
+    "L Y+20\n"
+)
 
 
 def test_before_the_first_tool_its_length_is_none(opened):
     """At the start, and while a tool is changed, the axes stand where they stood: it is the tip that another tool moves."""
-    setup = mnc.Setup(tools={2: TOOL, 3: mnc.Tool(radius=2, length=60)}, kinematics="table-ac", start=(7, -8, 400), limits=mnc.Limits(tool_change=5))
+    tools, limits = {2: TOOL, 3: mnc.Tool(radius=2, length=60)}, mnc.Limits(tool_change=5)
+    setup = mnc.Setup(tools=tools, kinematics="table-ac", start=(7, -8, 400), limits=limits)
     run = mnc.run("TOOL CALL 2 Z S3000\nL X+20 Y-5 Z+50 R0 FMAX M3\nTOOL CALL 3 Z\nL A+20 FMAX\n", "tnc-620", setup)
     page, axes = opened(run), run.axes()
     first, second = np.flatnonzero(run.toolpath.kind == mnc.Kind.TOOL).tolist()
@@ -188,7 +192,8 @@ def test_no_label_lies_over_another(opened, view):
         window.told = [];
         const write = CanvasRenderingContext2D.prototype.fillText;
         CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
-            if (this.canvas.id === "picture" && this.textAlign === "center") window.told.push([text, x, y, this.measureText(text).width]);
+            const {width} = this.measureText(text);
+            if (this.canvas.id === "picture" && this.textAlign === "center") window.told.push([text, x, y, width]);
             write.call(this, text, x, y);
         };
         player.view(view);
@@ -210,7 +215,8 @@ def test_the_square_is_behind_the_tool_that_stands_on_it(opened):
     """The picture over the part is clear where the tool is, and has the square beside it."""
     run = made("table-ac", SLOPE)
     page = opened(run)
-    page.evaluate("row => player.go(player.afterItem(player.run.itemOfRow[row]))", np.flatnonzero(run.toolpath.is_motion)[-1].item())
+    row = np.flatnonzero(run.toolpath.is_motion)[-1].item()
+    page.evaluate("row => player.go(player.afterItem(player.run.itemOfRow[row]))", row)
     on, beside = page.evaluate("""() => {
         player.draw();
         const {picture} = player, {width, height} = picture.canvas, [across, , up] = picture.run.chain.tool(player.now().angles);

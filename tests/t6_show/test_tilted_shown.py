@@ -66,7 +66,10 @@ def test_a_tool_without_a_holder_has_none():
     assert solids.holder_of(made(SQUARE, None)) is None
 
 
-DRILLED = "BLK FORM 0.1 Z X-30 Y-30 Z-20\nBLK FORM 0.2 X+30 Y+30 Z+0\nL A+30 FMAX\nL X+0 Y+0 Z+20 FMAX\nL Z-15 F200\nL Z+60 FMAX\nL A+0 FMAX"
+DRILLED = (
+    "BLK FORM 0.1 Z X-30 Y-30 Z-20\nBLK FORM 0.2 X+30 Y+30 Z+0\nL A+30 FMAX\nL X+0 Y+0 Z+20 FMAX\nL Z-15 F200\nL Z+60 FMAX\n"
+    "L A+0 FMAX"
+)
 
 
 def test_a_report_names_the_axes_of_the_machine(tmp_path):
