@@ -549,12 +549,12 @@ def test_of_many_blocks_on_one_way_the_one_that_leaves_it_is_told(swapped):
 
 
 def test_a_picture_is_about_the_place_of_a_difference_and_not_about_its_row():
-    """A face in a tilted plane, 80 mm long: 1 mm more at its end is seen there, as (75.517, 26.422) = 80 (cos, sin) of 20 degrees,
-    less the sine and the cosine of it for Z-1."""
+    """A face in a tilted plane, 80 mm long: 1 mm more at its end is seen there: in the plane Y80 Z-1
+    and Y81 Z-1, turned by 20 degrees."""
     plane = "PLANE SPATIAL SPA+20 SPB+0 SPC+0 TURN MB50 FMAX"
     text = f"TOOL CALL 1 Z S900\nL X+0 Y+0 Z+5 R0 FMAX M3\n{plane}\nL X+100 Z-1 F500\nL Y+{{}} F200\n"
-    setup = mnclab.Setup(tools={1: mnclab.Tool(radius=4, length=50)}, kinematics="table-ac", start=(0, 0, 400))
-    found = mnclab.prove(*(mnclab.run(text.format(y), "tnc-620", setup) for y in (80, 81)))
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=4, length=50)}, kinematics="table-ac", start=(0, 0, 400))
+    found = mnc.prove(*(mnc.run(text.format(y), "tnc-620", setup) for y in (80, 81)))
     c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
     ends = np.array([[80, -1], [81, -1]]) @ [[c, s], [-s, c]]
     assert np.allclose([each[1:] for each in found.first.places], ends, atol=1e-9)
