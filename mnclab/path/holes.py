@@ -49,7 +49,7 @@ class Holes(Rows[HoleMade]):
     """The holes of a path in the order of drilling: a row for each place and tool; a table when shown.
 
     `first` are the rows of the path that cut each of them first. `reach` is "up to line 12, where the run stopped" if the
-    path ends before its program, else empty.
+    path ends before its program, and tells of tilted tools, whose holes are left out; else it is empty.
     """
 
     HEAD = ("hole", "x", "y", "from z", "to z", "diameter", "tool", "lines")
@@ -124,6 +124,8 @@ def holes(
             top=max(before.top, hole.top), bottom=min(before.bottom, hole.bottom),
             lines=tuple(dict.fromkeys(before.lines + hole.lines)),
         )  # fmt: skip
+    if (np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.directions[:, 2] < 1 - SAME)).any():
+        reach = "; ".join(["along Z, what tilted tools cut is left out", *([reach] if reach else [])])
     return Holes(list(made.values()), path.unit, reach, list(first.values()))
 
 

@@ -37,6 +37,7 @@ class AxisPositions(Pictured, Columned):
 
     def __init__(self, path: Toolpath, history: History, first: float) -> None:
         changes = history.changed("tool")
+        self.first = first  # length of the tool before the first row, mm
         self.lengths, self._chains = lengths_of_rows(path.step, changes, first), history.changed(CHAIN)
         found = references(path, path.end, np.arange(len(path)), self.lengths, self._chains)
         self.path, self.line = path, path.line

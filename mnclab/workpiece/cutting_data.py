@@ -150,7 +150,9 @@ def _notes(
         most = f"; {met} {'are' if ' ' in met else 'is'} the most of a row{chip}" * bool(met)
         yield f"Q most is that at a place in the material, plunges too{most}."
     if any(cut.open for cut in found):
-        yield "At least: there may be more in rows that are too many to look at, or in threads, which are not looked at."
+        tilted = removal is not None and removal.workpiece.cutting.tilted is not None
+        others = "in threads, or under tilted tools" if tilted else "or in threads"
+        yield f"At least: there may be more in rows that are too many to look at, {others}, which are not looked at."
     if few := [cut for cut in found if cut.depth and cut.seen[0] < cut.seen[1]]:
         told = ", ".join(f"{cut.seen[0]} of {cut.seen[1]} of T{cut.tool}" for cut in few)
         yield f"The least of {_met(few, chip=True)} is that of the rows that were looked at: {told}."

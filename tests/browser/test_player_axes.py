@@ -156,3 +156,82 @@ def test_without_kinematics_the_page_has_no_axes(opened):
     assert page.evaluate("() => typeof Chain") == "undefined"
     assert [name for name, _ in page.evaluate(READ, 2)] == ["X", "Y", "Z"]
     assert page.get_by_role("button", name="Table turns").count() == page.get_by_role("button", name="Head").count() == 0
+
+
+SLOPE = (
+    "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nPLANE SPATIAL SPA+0 SPB+25 SPC+0 TURN MB50 FMAX\nL X+8 Y-20 Z+0 F500\n"
+    "L Y+20\n"
+)
+
+
+def test_before_the_first_tool_its_length_is_none(opened):
+    """At the start, and while a tool is changed, the axes stand where they stood: it is the tip that another tool moves."""
+    tools, limits = {2: TOOL, 3: mnc.Tool(radius=2, length=60)}, mnc.Limits(tool_change=5)
+    setup = mnc.Setup(tools=tools, kinematics="table-ac", start=(7, -8, 400), limits=limits)
+    run = mnc.run("TOOL CALL 2 Z S3000\nL X+20 Y-5 Z+50 R0 FMAX M3\nTOOL CALL 3 Z\nL A+20 FMAX\n", "tnc-620", setup)
+    page, axes = opened(run), run.axes()
+    first, second = np.flatnonzero(run.toolpath.kind == mnc.Kind.TOOL).tolist()
+    going = """row => {
+        const {player} = window, {run} = player, item = run.itemOfRow[row];
+        player.go({item, t: (run.begin[item] + run.end[item]) / 2, done: false});
+        return player.run.end[item] - run.begin[item];
+    }"""
+    board = "() => ['X', 'Y', 'Z'].map(name => Number(document.getElementById(`machine-${name}`).textContent.replace('−', '-')))"
+    assert page.evaluate(board) == [7, -8, 400]
+    assert page.evaluate(going, first) == pytest.approx(5)
+    assert page.evaluate(board) == [7, -8, 400] == axes[first, :3].tolist()
+    page.evaluate(going, second)
+    assert page.evaluate(board) == [20, -5, 140] == axes[second - 1, :3].tolist() == axes[second, :3].tolist()
+
+
+@pytest.mark.parametrize("view", ["isometric", "top", "front", "right"])
+def test_no_label_lies_over_another(opened, view):
+    run = made("table-ac", SLOPE)
+    page = opened(run)
+    page.evaluate("""view => {
+        window.told = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            const {width} = this.measureText(text);
+            if (this.canvas.id === "picture" && this.textAlign === "center") window.told.push([text, x, y, width]);
+            write.call(this, text, x, y);
+        };
+        player.view(view);
+    }""", view)  # fmt: skip
+    for row in range(2, len(run.toolpath), 9):
+        told = page.evaluate("""row => {
+            window.told = [];
+            player.go(player.afterItem(player.run.itemOfRow[row]));
+            player.draw();
+            return window.told;
+        }""", row)  # fmt: skip
+        assert len(told) >= 4
+        for k, (text, x, y, wide) in enumerate(told):
+            for other, x1, y1, wide1 in told[k + 1 :]:
+                assert abs(x - x1) > (wide + wide1) / 2 or abs(y - y1) > 8, (row, text, other)
+
+
+def test_the_square_is_behind_the_tool_that_stands_on_it(opened):
+    """The picture over the part is clear where the tool is, and has the square beside it."""
+    run = made("table-ac", SLOPE)
+    page = opened(run)
+    row = np.flatnonzero(run.toolpath.is_motion)[-1].item()
+    page.evaluate("row => player.go(player.afterItem(player.run.itemOfRow[row]))", row)
+    on, beside = page.evaluate("""() => {
+        player.draw();
+        const {picture} = player, {width, height} = picture.canvas, [across, , up] = picture.run.chain.tool(player.now().angles);
+        const {data} = picture.canvas.getContext("2d").getImageData(0, 0, width, height);
+        return [1, -20].map(aside => [3, 4, 5, 6, 7, 8, 9, 10, 11].map(far => {
+            const [x, y] = picture.camera.project(player.now().point.map((v, k) => v + far * up[k] + aside * across[k]));
+            return data[4 * (Math.round(y) * width + Math.round(x)) + 3];
+        }));
+    }""")
+    assert np.median(on) == 0 < np.median(beside)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (1024, 600), (800, 600), (500, 800)])
+def test_all_axes_are_in_sight(opened, width, height):
+    page = opened(made("table-ac"))
+    page.set_viewport_size({"width": width, "height": height})
+    row, board = (page.locator(of).bounding_box() for of in ("#machine-C", ".board"))
+    assert row["y"] + row["height"] <= board["y"] + board["height"]

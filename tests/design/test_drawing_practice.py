@@ -117,3 +117,12 @@ def test_a_depth_that_begins_on_a_step_stands_in_the_section():
     heights = [sorted((each.a[1], each.b[1])) for each in linear]
     assert [-11, -5] in heights and [-5, 0] in heights
     assert [each.text for each in drawn.dimensions if each.measure == "depth"] == ["⌀44\n↧5", "6"]
+
+
+def test_what_goes_from_end_to_end_is_cut_across():
+    """A section along a step has no wall of it: the one from the left does, and it is the first one, A. No size is told of what
+    is not there."""
+    drawn = drawing(mnc.exercise("tnc-620-47").design)
+    texts = {each.view.name: {size.value.text for size in each.view.dimensions} for each in laid(drawn)}
+    assert texts == {"from the front": {"30"}, "from above": {"80", "50", "10"}, "from the left": {"8"}}
+    assert [view.view.title for view in laid(drawn)] == ["", "", "A–A"]

@@ -1,14 +1,16 @@
 """Upright lines through what tilted tools sweep: against points of them seen along the tool, by the heights of upright moves."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mnclab.workpiece.clamped import Placement
 from mnclab.workpiece.cutting import frames_along
+from mnclab.workpiece.milling import gaps as searched
 from mnclab.workpiece.milling.gaps import Gaps
-from mnclab.workpiece.milling.moves import CHORD, Moves
+from mnclab.workpiece.milling.moves import CHORD, Moves, joined
 from mnclab.workpiece.milling.swept import left_by
 
 BOX = np.array([[-50.0] * 3, [50.0] * 3])
@@ -49,6 +51,32 @@ def test_a_line_has_one_gap_where_points_of_it_are_in_the_tool(cutter, way):
         own = placement.back(np.stack(np.broadcast_arrays(x, y, UPRIGHTS[:, None]), axis=-1))
         inside = left_by(moves, own[..., 0].ravel(), own[..., 1].ravel())[0].reshape(own.shape[:2]) < own[..., 2]
         assert inside.any() and (in_gap(gaps, x, y) == inside).all(), direction
+
+
+def test_of_plunges_at_one_place_the_deepest_says_what_is_left():
+    """Three pecks and a hole beside them: what is left is that of the deepest peck, and every row is still told."""
+    ends = [(1.0, 2.0, 3.0), (1.0, 2.0, -2.0), (1.0, 2.0, 1.0), (9.0, 2.0, 2.0)]
+    pecks = [one((x, y, 20.0), (x, y, z), CUTTERS["point"]) for x, y, z in ends]
+    moves = joined([replace(each, row=np.array([k])) for k, each in enumerate(pecks)])
+    gaps, placement = gaps_of(moves, np.array((1.0, 0.5, 2.0)))
+    deep = gaps_of(joined([pecks[1], pecks[3]]), np.array((1.0, 0.5, 2.0)))[0]
+    x, y = np.random.default_rng(8).uniform(-6, 14, (2, 200))
+    assert gaps.deepest.tolist() == [1, 3]
+    blank = np.full(200, 5.0), np.full(200, -40.0)
+    for found, expected in zip(gaps.sides(x, y, *blank), deep.sides(x, y, *blank)):
+        assert (found == expected).all()
+    at = placement.there(np.array([[1.0, 2.0, 4.0], [1.0, 2.0, -1.0], [9.0, 2.0, 3.0]]))
+    assert gaps.rows_at(*at.T).tolist() == [2, 1, 3]
+
+
+def test_a_search_ends_where_it_is_done(monkeypatch):
+    """A line is looked at 20 times at most on the mean, where every one took 9 + 80 or 9 + 68 looks."""
+    looks, above = [], searched._above
+    monkeypatch.setattr(searched, "_above", lambda *of: (looks.append(len(of[-1])), above(*of))[1])
+    gaps, _ = gaps_of(one((1.0, 2.0, 20.0), (1.0, 2.0, -6.0), CUTTERS["point"]), np.array((1.0, 2.0, 3.0)))
+    x, y = np.random.default_rng(5).uniform(-14, 14, (2, 1000))
+    list(gaps.spans(x, y))
+    assert sum(looks) < 20 * looks[1]
 
 
 def test_an_arc_is_right_within_its_chords():

@@ -40,6 +40,19 @@ def leaning(low, half, angle):
     return Polygon(corners @ np.array([[c, s], [-s, c]])).intersection(box(-20, -25, 20, 0))
 
 
+def test_a_slot_ends_in_the_sides_of_the_block():
+    """A slot along X under an overhang: between the last nodes and X30 nothing of the surface is beside the side itself, whose area
+    is that of the section."""
+    part = run(plane(SLOT, a=30)).workpiece(step=0.5)
+    solid = part.solid()
+    x = np.abs(solid.points[:, 0])
+    assert not ((x > 29.6) & (x < 30 - 3e-4)).any() and x.max() < 30 + 3e-4
+    a, b, c = solid.points[solid.triangles].transpose(1, 0, 2)
+    side = (solid.points[solid.triangles][:, :, 0] > 30 - 3e-4).all(axis=1)
+    area = np.linalg.norm(np.cross(b - a, c - a)[side], axis=1).sum() / 2
+    assert area == pytest.approx(40 * 25 - leaning(-3, 4, math.radians(30)).area, rel=1e-3)
+
+
 @pytest.mark.parametrize("kinematics", [None, "table-ac"])
 def test_a_slot_on_a_plane_that_leans(kinematics):
     part = run(plane(SLOT, a=30), kinematics=kinematics).workpiece(step=0.5)

@@ -562,3 +562,18 @@ def test_a_tool_that_turns_on_the_way_that_another_goes_upright():
         assert [each.amount for each in found] == [pytest.approx(200 * math.sin(math.radians(1)), abs=1e-6)]
         assert "3.4905 mm apart" in found[0].told
         assert mnc.prove(first, turns).verdict == ("same motion" if first is one else "different")
+
+
+def test_a_picture_is_about_the_place_of_a_difference_and_not_about_its_row():
+    """A face in a tilted plane, 80 mm long: 1 mm more at its end is seen there: in the plane Y80 Z-1
+    and Y81 Z-1, turned by 20 degrees."""
+    plane = "PLANE SPATIAL SPA+20 SPB+0 SPC+0 TURN MB50 FMAX"
+    text = f"TOOL CALL 1 Z S900\nL X+0 Y+0 Z+5 R0 FMAX M3\n{plane}\nL X+100 Z-1 F500\nL Y+{{}} F200\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(radius=4, length=50)}, kinematics="table-ac", start=(0, 0, 400))
+    found = mnc.prove(*(mnc.run(text.format(y), "tnc-620", setup) for y in (80, 81)))
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    ends = np.array([[80, -1], [81, -1]]) @ [[c, s], [-s, c]]
+    assert np.allclose([each[1:] for each in found.first.places], ends, atol=1e-9)
+    for ax, k in zip(found.plot().axes, (0, 1)):
+        low, high = ax.get_ylim()
+        assert abs((low + high) / 2 - ends[:, k].mean()) < 1 and high - low < 40

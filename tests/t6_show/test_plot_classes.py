@@ -197,6 +197,24 @@ def test_zero_points_are_crosses_with_their_code():
     assert crosses(side) == {"G54": (0, 0), "G55": (40, 0)}
 
 
+def test_a_name_is_nearer_to_its_own_cross_than_to_another():
+    """Zero points 10 mm apart in a path of 90: their names are wider than that."""
+    text = (
+        "TOOL CALL 1 Z S2000\nL X+0 Y+0 Z+10 R0 FMAX M3\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nL Z-9 F300\n"
+        "L X+45 Y+30\nL Z+9\nL X+5\nL X-35 Y-40\n"
+    )
+    picture = mnclab.run(text, "tnc-620", presets={0: (0, 0, 0)}, tools={1: mnclab.Tool(radius=4)}).plot()
+    picture.draw_without_rendering()
+    for ax in picture.axes:
+        names = [each for each in ax.texts if each.get_text() in ("preset", "datum shift")]
+        assert len(names) == 2
+        places = ax.transData.transform([each.xy for each in names])
+        for name, own, other in zip(names, places, places[::-1]):
+            box = name.get_window_extent().padded(-4)  # of the frame around letters
+            away = [np.linalg.norm(at - np.clip(at, *box.get_points())) for at in (own, other)]
+            assert away[0] < away[1], name.get_text()
+
+
 def test_zero_points_at_one_place_share_a_cross():
     assert crosses(run(TWO).plot().axes[0]) == {"G54, G55": (0, 0)}
 

@@ -80,6 +80,16 @@ def test_the_scale_ends_in_a_number():
     assert all(left.x1 < right.x0 for (_, left), (_, right) in zip(told, told[1:]))
 
 
+@pytest.mark.parametrize("deep", [13.972, 12.6, 9.105, 0.012])
+@pytest.mark.parametrize("size", [(8, 6), (5, 4), (3.4, 3)])
+def test_numbers_of_the_scale_have_air_between_them(deep, size):
+    own = mnclab.run(f"T1 M6 S9 M3\nG0 X9 Y9 Z5\nG1 Z-{deep} F300\n", "g43", Setup(tools=TOOLS, stock=STOCK))
+    picture = own.workpiece().plot(size=size)
+    picture.draw_without_rendering()
+    boxes = [each.get_window_extent() for each in picture.axes[-1].get_xticklabels()]
+    assert len(boxes) > 2 and all(one.x1 + 3 < other.x0 for one, other in itertools.pairwise(boxes))
+
+
 def test_a_part_with_nothing_but_through_holes_has_no_scale():
     text = "G17 G90 G54\nT2 M6 S2000 M3\nG0 X50 Y10 Z5\nG1 Z-30 F300\nG0 Z20\n"
     figure = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=STOCK)).workpiece().plot()

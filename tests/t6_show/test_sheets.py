@@ -77,6 +77,14 @@ def test_a_lathe_tells_diameters():
     assert "⌀60" in [each.get_text() for each in plot_set_up(run).axes[0].texts]
 
 
+def test_names_of_two_zero_points_do_not_lie_over_one_another():
+    picture = plot_set_up(mnclab.run("data/lessons/slope.h", setup="data/lessons/slope.toml"))
+    picture.draw_without_rendering()
+    for ax in picture.axes:
+        preset, shifted = (each.get_window_extent() for each in ax.texts if each.get_text() in ("preset", "datum shift"))
+        assert not preset.overlaps(shifted)
+
+
 def test_the_name_of_a_zero_point_on_the_face_is_clear_of_the_dimension_beside_it():
     run = mnclab.run("data/programs/jnc-t01/shaft.jnc", setup="data/setups/jnc-t01/shaft.toml")
     picture = plot_set_up(run, (6.0, 3.2))

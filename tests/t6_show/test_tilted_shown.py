@@ -64,3 +64,25 @@ def test_bodies_stand_on_the_tip_along_the_tool():
 def test_a_tool_without_a_holder_has_none():
     assert solids.holder_of(made("L A+30 FMAX", tool=mnc.Tool(radius=4, length=90))) is None
     assert solids.holder_of(made(SQUARE, None)) is None
+
+
+DRILLED = (
+    "BLK FORM 0.1 Z X-30 Y-30 Z-20\nBLK FORM 0.2 X+30 Y+30 Z+0\nL A+30 FMAX\nL X+0 Y+0 Z+20 FMAX\nL Z-15 F200\nL Z+60 FMAX\n"
+    "L A+0 FMAX"
+)
+
+
+def test_a_report_names_the_axes_of_the_machine(tmp_path):
+    page = made(SQUARE).report(tmp_path / "r.html").read_text("utf-8")
+    assert "Five-axis mill, table A and C: A and C in the table, A from \N{MINUS SIGN}120 to 120°" in page
+    assert "kinematics" not in made(SQUARE, None).report(tmp_path / "r.html").read_text("utf-8")
+
+
+def test_tables_say_what_they_leave_out_of_tilted_tools():
+    run = made(DRILLED)
+    assert run.holes().nothing == "no holes along Z, what tilted tools cut is left out"
+    assert "in threads, or under tilted tools, which are not looked at." in "\n".join(run.cutting_data().notes)
+    assert any("rows of a tool not along Z are left out" in each for each in run.design().notes)
+    upright = made(DRILLED.replace("A+30", "A+0"))
+    assert upright.holes().reach == "" and len(upright.holes()) == 1 and upright.design().notes == ()
+    assert "tilted" not in "\n".join(upright.cutting_data().notes)

@@ -39,7 +39,8 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0, beside: bool = False
     levels = Levels(design.stack, nested=not design.back)
     (x0, y0, _), (x1, y1, _) = design.bounds.tolist()
     items = list(_items(design, FRONT))
-    first = chosen(items)
+    along = {each.key for each in items if each.begin < x0 + SAME and each.end > x1 - SAME}  # without walls in a section along it
+    first = chosen([each for each in items if each.key not in along])
     shows = first.shows if first else frozenset[tuple[bool, int]]()
     top = Draft("from above", (0, 1))
     top.draw(edges_from_above(levels))
@@ -47,11 +48,12 @@ def drafts(design: Design, ledger: Ledger, tabled: int = 0, beside: bool = False
     found = [front, top]
     if first:
         top.cuts.append(Cut(first.way(x0, x1), "A", (0.0, 1.0)))
-    second = _second(design, [each for each in items if each.key not in shows])
+    second = _second(design, [each for each in items if each.key not in shows], along)
+    letter = "B" if first else "A"
     if second:
-        side = _elevation(design, levels, LEFT, second, "B", (1, 0))
+        side = _elevation(design, levels, LEFT, second, letter, (1, 0))
         found.append(side)
-        top.cuts.append(Cut(tuple((depth, -u) for u, depth in second.way(-y1, -y0)), "B", (1.0, 0.0)))
+        top.cuts.append(Cut(tuple((depth, -u) for u, depth in second.way(-y1, -y0)), letter, (1.0, 0.0)))
     sides = [Side(design, False, top, ledger, shows, second.shows if second else frozenset(), tabled)]
     if design.back:
         said = "from below" + (" (turned over about Y)" if design.turn == "y" else "")
@@ -111,15 +113,15 @@ def _placed(design: Design, feature: Feature, back: bool, turn: Floats) -> Conto
     return line.transformed(turn @ design.flip[0] if back else turn)
 
 
-def _second(design: Design, left: Sequence[Item]) -> Plane | None:
-    """A section from the left for what the first one does not show, where only that tells its depth."""
+def _second(design: Design, left: Sequence[Item], along: set[tuple[bool, int]]) -> Plane | None:
+    """A section from the left for what the first one does not show, where only that tells its depth, or it goes `along` that."""
     keys = {each.key for each in left if each.worth >= DEEP}
     if not keys:
         return None
     mine = {each.key for each in left}
     items = [each for each in _items(design, LEFT) if each.key in mine]
     plane = chosen([each if each.key in keys else each._replace(worth=0.1) for each in items])
-    return plane if plane and len(plane.shows & keys) >= LEAST else None
+    return plane if plane and (len(plane.shows & keys) >= LEAST or plane.shows & along) else None
 
 
 def _elevation(

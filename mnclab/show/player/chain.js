@@ -4,6 +4,8 @@
 
 const RINGS = 0.34, WIDER = 0.07;  // of the size of the picture: the ring about the first axis, and how much more the next ones have
 const DEGREE = Math.PI / 180;
+const SPOTS = [1.09, 1.24, 0.92, 1.39, 0.77];  // where a label may stand, of the length of what it names
+const FONT = "600 11px system-ui, sans-serif";
 
 class Chain {
   constructor(columns, {head, table, home, length, plane, corrected}) {
@@ -13,6 +15,9 @@ class Chain {
   in(row) {
     const found = this.corrected.filter(each => row >= each.row).pop();
     return found ? Object.assign(Object.create(Chain.prototype), this, found) : this;
+  }
+  after(row) {  // the length of the tool after a row, mm
+    return this.length.value(row + 1);
   }
   get axes() {  // by their names
     return [...this.table, ...this.head].sort((a, b) => a.number - b.number);
@@ -92,7 +97,7 @@ class Turning {
     const {chain, picture: {run: {path, rotary}}} = this, step = Math.max(1, Math.floor(path.n / 200)), found = [];
     for (let row = 0; row < path.n; row += step) {
       const angles = rotary.map(column => column[row]), tip = path.vertex(row + 1);
-      if (path.isMotion(row) && path.kind[row] !== RAPID) found.push(tip, ...chain.rings(tip, angles, chain.length.value(row) || 0, this.middle).slice(chain.table.length).map(({middle}) => middle));
+      if (path.isMotion(row) && path.kind[row] !== RAPID) found.push(tip, ...chain.rings(tip, angles, chain.after(row), this.middle).slice(chain.table.length).map(({middle}) => middle));
     }
     return this.pivots = found;
   }
@@ -114,9 +119,10 @@ class Turning {
     if (whole) all.push(...this.heads.map(along).flatMap(v => [v - room, v + room]));
     return [Math.min(...all), Math.max(...all)];
   }
-  draw(pen, {row, tip, at, angles, step}) {
-    const {chain, picture, picture: {camera, colours, extent}} = this, project = place => camera.project(place), length = chain.length.value(Math.max(row, at)) || 0;
-    this.plane(pen, chain.plane.value(step));
+  // `outlines` are those of a tool that is in the picture already.
+  draw(pen, {tip, angles, length, step}, outlines) {
+    const {chain, picture, picture: {camera, colours, extent}} = this, project = place => camera.project(place);
+    this.plane(pen, chain.plane.value(step), outlines);
     const rings = chain.rings(tip, angles, length, this.middle), go = (from, ways, sizes) => from.map((v, k) => v + ways.reduce((sum, way, n) => sum + way[k] * sizes[n], 0));
     pen.lineCap = "butt";
     rings.forEach(({axis, middle, line, zero, stands}, k) => {
@@ -145,8 +151,8 @@ class Turning {
         pen.stroke();
       }
       pen.fillStyle = colours.turning;
-      Object.assign(pen, {font: "600 11px system-ui, sans-serif", textAlign: "center", textBaseline: "middle"});
-      picture.label(pen, `${axis.name} ${short(angle)}°`, ...project(go(middle, [stands], [1.18 * size])));
+      Object.assign(pen, {font: FONT, textAlign: "center", textBaseline: "middle"});
+      picture.spread(pen, `${axis.name} ${short(angle)}°`, SPOTS.map(far => project(go(middle, [stands], [1.1 * far * size]))));
     });
     if (chain.head.length) this.arm(pen, [tip, go(tip, chain.tool(angles).slice(2), [length]), ...rings.slice(chain.table.length).map(({middle}) => middle).reverse()]);
   }
@@ -159,24 +165,32 @@ class Turning {
     pen.stroke();
     pen.setLineDash([]);
   }
-  plane(pen, frame) {  // a square about its zero point with its axes
+  plane(pen, frame, outlines) {  // a square about its zero point with its axes, behind a tool that one sees from its side
     if (!frame) return;
     const {picture: {camera, colours, extent}} = this, size = 0.5 * extent, at = (x, y, z = 0) => camera.project([0, 1, 2].map(k => frame[k][3] + x * frame[k][0] + y * frame[k][1] + z * frame[k][2]));
+    pen.save();
+    if (camera.near.reduce((sum, v, k) => sum + v * frame[k][2], 0) > 0) for (const outline of outlines) {
+      trace(pen, outline);
+      pen.rect(0, 0, ...camera.size);
+      pen.clip("evenodd");
+    }
     pen.beginPath();
     for (const [x, y] of [[-size, -size], [size, -size], [size, size], [-size, size]]) pen.lineTo(...at(x, y));
     pen.closePath();
-    Object.assign(pen, {fillStyle: colours.plane, strokeStyle: colours.plane, lineWidth: 1.2, globalAlpha: 0.13, font: "600 11px system-ui, sans-serif"});
+    Object.assign(pen, {fillStyle: colours.plane, strokeStyle: colours.plane, lineWidth: 1.2, globalAlpha: 0.13});
     pen.fill();
     pen.globalAlpha = 1;
     pen.stroke();
-    [["X", 1, 0, 0], ["Y", 0, 1, 0], ["Z", 0, 0, 0.6]].forEach(([name, x, y, z]) => {
+    const axes = [["X", 1, 0, 0], ["Y", 0, 1, 0], ["Z", 0, 0, 0.6]];
+    axes.forEach(([, x, y, z]) => {
       Object.assign(pen, {strokeStyle: colours.plane, lineWidth: 1.6});
       pen.beginPath();
       pen.moveTo(...at(0, 0));
       pen.lineTo(...at(size * x, size * y, size * z));
       pen.stroke();
-      pen.fillStyle = colours.plane;
-      this.picture.label(pen, name, ...at(1.09 * size * x, 1.09 * size * y, 1.15 * size * z));
     });
+    pen.restore();
+    Object.assign(pen, {fillStyle: colours.plane, font: FONT, textAlign: "center", textBaseline: "middle"});
+    for (const [name, ...way] of axes) this.picture.spread(pen, name, SPOTS.map(far => at(...way.map(v => far * size * v))));
   }
 }

@@ -299,9 +299,10 @@ class Recorded {  // the whole run; an *item* is a row of the path, or a step th
       return row < 0 ? first(k) : before + share * (angle[row] - before);
     });
   }
-  // A tip in machine coordinates, or where rotary axes swing it the spindle reference, at angles of these in a row.
-  reference(tip, angles, row) {
-    const at = this.chain ? this.chain.in(row).reference(tip, angles, this.chain.length.value(row) || 0) : tip;
+  // A tip in machine coordinates, or where rotary axes swing it the spindle reference, at angles of these in a row and with a
+  // tool of a length.
+  reference(tip, angles, row, length) {
+    const at = this.chain ? this.chain.in(row).reference(tip, angles, length) : tip;
     return at.map((value, k) => value + this.origin[k]);
   }
   // The spindle speed; at constant cutting speed it follows X, but not beyond its limit.

@@ -34,16 +34,16 @@ def _last(path: Toolpath, step: int) -> int:
 
 def machine(pack: Packer, run: Any) -> dict[str, Any] | None:
     """The axes from the machine to the tool and to the part, centres of a table in coordinates of the path, those of a head from
-    the spindle reference; None where nothing turns."""
+    the spindle reference; the lengths are that before the first row and those after each. None where nothing turns."""
     path, kinematics = run.toolpath, run.toolpath.kinematics
     if not turns(path):
         return None
-    steps, planes = tilted_planes(run)
+    (steps, planes), axes = tilted_planes(run), run.axes()
     corrected = [(_last(path, step), found) for step, found in run.history.changed("kinematics") if found != kinematics]
     return {
         **_chain(kinematics, path.origin),
         "corrected": [{"row": row, **_chain(found, path.origin)} for row, found in corrected],
         "home": np.degrees(kinematics.home).tolist(),
-        "length": log(pack, run.axes().lengths),
+        "length": log(pack, np.append(axes.first, axes.lengths)),
         "plane": changes(pack, steps, [None if plane is None else plane.tolist() for plane in planes]),
     }

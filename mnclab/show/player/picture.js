@@ -188,7 +188,7 @@ class Picture {
     return point => this.camera.project(turned(point.map((v, k) => v - tip[k]), drum, angle).map((v, k) => v + tip[k]));
   }
   // Returns the boxes of what is written.
-  moment(pen, {row, tip, tool, along, at, angles, step}) {
+  moment(pen, {row, tip, tool, along, at, angles, length, step}) {
     const {camera, colours, strokes, run} = this, project = point => camera.project(point);
     const inSpace = this.part && this.part.inSpace;
     if (row >= 0 && run.path.isMotion(row) && !inSpace) {
@@ -196,7 +196,12 @@ class Picture {
       pen.lineWidth = 2.6;
       for (const kind of [RAPIDS, CUTS, PROBINGS]) strokes.stroke(pen, kind, strokes.after[row], strokes.after[row + 1]);
     }
-    if (this.turning) this.turning.draw(pen, {row, tip, at, angles, step});
+    this.written = [];
+    const boxes = this.turning ? this.triad(pen) : [];
+    if (this.turning) {
+      const rings = inSpace && tool ? parts(tool, this.extent, true) : [], beside = this.beside(tip, angles);
+      this.turning.draw(pen, {tip, angles, length, step}, rings.map(([part]) => hull(part.flatMap(each => ring(each, tip, along, beside)))));
+    }
     const held = run.lathe && run.inserts.tools[run.inserts.which.value(row < 0 ? at : row) || 0];
     if (held && !inSpace) drawInsert(pen, held, tip, project, colours);
     else if (!run.lathe && !inSpace && tool && (tool.number || tool.radius)) drawTool(pen, tool, tip, along, this.beside(tip, angles), colours, this.extent, Boolean(this.turning));
@@ -208,7 +213,7 @@ class Picture {
     pen.lineWidth = 1;
     pen.fill();
     pen.stroke();
-    return [[x - 5, y - 5, x + 5, y + 5], ...this.triad(pen)];
+    return [[x - 5, y - 5, x + 5, y + 5], ...this.turning ? boxes : this.triad(pen)];
   }
 
   // Axes of the work offset at its zero point.
@@ -237,6 +242,7 @@ class Picture {
       pen.strokeText(name, lx, ly);
       pen.fillText(name, lx, ly);
       boxes.push([lx - 6, ly - 7, lx + 6, ly + 7]);
+      this.written.push(boxes[boxes.length - 1]);
     });
     return boxes;
   }
@@ -287,6 +293,15 @@ class Picture {
     pen.strokeText(text, x, y);
     pen.lineWidth = 1;
     pen.fillText(text, x, y);
+  }
+  // A label at the first of some places where none is yet.
+  spread(pen, text, spots) {
+    const wide = pen.measureText(text).width / 2 + 2, [x, y] = spots.find(spot => this.clear(spot, wide)) || spots[0];
+    this.written.push([x - wide, y - 7, x + wide, y + 7]);
+    this.label(pen, text, x, y);
+  }
+  clear([x, y], wide) {
+    return this.written.every(([left, top, right, bottom]) => x + wide < left || x - wide > right || y + 7 < top || y - 7 > bottom);
   }
   bar(pen) {
     const {camera, colours} = this, [, h] = camera.size, {unit} = this.run, length = round(60 / camera.zoom / unit.length), wide = length * unit.length * camera.zoom;

@@ -183,7 +183,9 @@ class PlayerPage {
     const row = !run.items || this.atStart ? -1 : run.itemRow[item] >= 0 ? run.itemRow[item] : run.before[item] - 1;
     const {point, speed, share} = done ? {point: run.path.vertex(rowsDone), speed: run.tool(item, t).speed, share: 1} : run.tool(item, t);
     const own = run.items && row === run.itemRow[item], angles = run.angles(row, own ? share : 1);
-    return {step, item: this.atStart ? -1 : item, row, rowsDone, share: own && !done ? share : 0, point, speed, angles, t};
+    const changes = own && share < 1 && run.path.kind[row] === TOOL;  // the tool before is still there
+    const length = run.chain ? run.chain.after(changes ? row - 1 : row) : 0;
+    return {step, item: this.atStart ? -1 : item, row, rowsDone, share: own && !done ? share : 0, point, speed, angles, length, t};
   }
   show() {  // what is written follows at once, also where the frame of the change before is still to come
     this.write();
@@ -210,7 +212,7 @@ class PlayerPage {
     const tool = run.history.has("tool") && !(run.header.turning?.length > 1) ? run.history.get("tool").value(now.step) : null;
     const lies = run.history.has("tool axis") ? run.history.get("tool axis").value(now.step) : null, along = lies ? "XYZ".indexOf(lies) : 2;
     this.measure.draw();
-    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles, step: now.step}, now.rowsDone);
+    picture.draw({row: going, tip: now.point, tool, along, at: Math.max(now.row, 0), angles: now.angles, length: now.length, step: now.step}, now.rowsDone);
     if (this.part && !this.part.draw(now.rowsDone, now.share, going, turning, this.late)) this.show();  // not there yet: go on with the next frame
   }
   showPart(on) {

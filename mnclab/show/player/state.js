@@ -90,10 +90,10 @@ class Board {
   positions(column, point) {
     for (const axis of this.axes) this.find(`${column}-${"XYZ"[axis]}`).textContent = point ? this.shown(point, axis, column === "program") : "–";
   }
-  show({step, row, point, speed, item, angles}) {
+  show({step, row, point, speed, item, angles, length}) {
     const {run, find} = this, {unit} = run, at = Math.max(row, 0);
     this.positions("tool", point);
-    this.positions("machine", run.header.turning ? null : run.reference(point, angles, at));
+    this.positions("machine", run.header.turning ? null : run.reference(point, angles, at, length));
     for (const {name, number: axis} of this.rotary) find(`machine-${name}`).textContent = `${number(angles[axis], 3)}°`;
     const feed = run.row.feed.value(at), perRev = run.row.per_rev.value(at), spindle = run.turning(at, point);
     const kind = row >= 0 ? run.path.kind[row] : -1, own = item >= 0 && run.itemRow[item] === row;

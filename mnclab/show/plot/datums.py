@@ -26,9 +26,9 @@ SHIFTS = ("local", "set", "shift")
 NEAR = 1.5  # places that would make the box longer than this many times are not shown
 MANY = 8  # places beyond which only zero points have names
 LOOKED_AT = 20_000  # strokes that a name avoids
-OFF = (8.0, 13.0)  # points from a cross to its name, tried one after the other
+OFF = (8.0, 13.0, 20.0)  # points from a cross to its name, tried one after the other
 BESIDE = 1.0  # points from a name to the middle of a line: half of its width
-SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
+SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1), (0.1, 1), (-0.1, 1), (0.1, -1), (-0.1, -1))
 
 
 class DatumCross(NamedTuple):
@@ -135,9 +135,10 @@ def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Ar
     unit = figure_of(ax).dpi / 72
     begin, end = segments(ax, view, drawn)
     crowd = ax.transData.transform(np.concatenate([occupied, [at for _, at in spots]]))
+    marks = crowd[len(occupied) :]
     taken = [*np.hstack([crowd - 6 * unit, crowd + 6 * unit]), *map(_extent, ax.texts)]
     inner = np.array(ax.bbox.extents) + np.array([2, 2, -2, -2]) * unit
-    for place, at in spots:
+    for k, (place, at) in enumerate(spots):
         text = ax.annotate(
             place.name, (float(at[0]), float(at[1])), (0, 0), textcoords="offset points", fontsize=SMALL,
             color=place.mark.colour, zorder=4.5,
@@ -149,6 +150,9 @@ def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Ar
             box = _extent(text)
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
+            away = np.linalg.norm(marks - np.clip(marks, box[:2], box[2:]), axis=1)
+            if (away[np.linalg.norm(marks - marks[k], axis=1) > 6 * unit] <= away[k]).any():
+                continue  # it would be read as the name of another one
             covered = crossing(box + BESIDE * unit * np.array([-1, -1, 1, 1]), begin, end)
             if best is None or covered < best[0]:
                 best = covered, side, off
@@ -164,7 +168,7 @@ def _extent(text: Text) -> Array:
     return np.asarray(text.get_window_extent().extents)
 
 
-def _put(text: Annotation, side: tuple[int, int], off: float) -> None:
+def _put(text: Annotation, side: tuple[float, float], off: float) -> None:
     right, up = side
     text.set_horizontalalignment("left" if right > 0 else "right" if right else "center")
     text.set_verticalalignment("bottom" if up > 0 else "top" if up else "center")

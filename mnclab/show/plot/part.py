@@ -175,16 +175,21 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
     return np.concatenate([image, seen.solid[..., None]], axis=2), names, scale
 
 
+FIGURE = 0.07  # inches, how wide a figure of a scale is
+
+
 def _scale(picture: Picture, title: str, low: float, high: float, shades: Any) -> None:
     """A bar of colours above the views, with numbers."""
     width, height = picture.get_size_inches().tolist()
     long, thick = min(3.4, width - 1.9), 0.1
     ax = picture.add_axes((1.0 / width, 1 - (0.07 + thick) / height, long / width, thick / height))
     ax.imshow(np.linspace(0, 1, 256)[None], cmap=shades, extent=(low, high, 0, 1), aspect="auto")
-    inner = [each for each in ax.get_xticks().tolist() if 0.08 < (each - low) / (high - low) < 0.92]
+    letter, told = FIGURE / long * (high - low), lambda value, _=None: number(round(value, 3))
+    clear = [letter * (len(told(end)) + 3) for end in (low, high)]  # half of both numbers, whose inner one is short, and air
+    inner = [each for each in ax.get_xticks().tolist() if low + clear[0] < each < high - clear[1]]
     ax.set(xticks=[low, *inner, high], yticks=[])  # its ends are told, and nothing stands in their way
     ax.tick_params(labelsize=SMALL, length=2, pad=1)
-    ax.xaxis.set_major_formatter(lambda value, _: number(round(value, 3)))
+    ax.xaxis.set_major_formatter(told)
     ax.set_ylabel(title, fontsize=SMALL, rotation=0, ha="right", va="center", labelpad=5)
     ax.spines[:].set_linewidth(0.5)
 

@@ -39,8 +39,6 @@ def plot_proof(found: Any, number: int | None = None, view: str = "auto", size: 
         some = path[max(row - ROWS, 0) : max(row, 0) + ROWS]
         lines += [(look._replace(name=name), line_of(some, CUTTING))]
         lines += [(rapid, dashed)] if len(dashed := line_of(some, (Kind.RAPID,))) else []
-        if row >= 0 and one.moves <= ROWS:
-            near = [*near, path.start[row]] if path.kind[row] != Kind.RAPID else near
     low, high = np.min(near, axis=0), np.max(near, axis=0)
     room = max(AROUND, 0.25 * float((high - low).max()))
     low, high = low - room, high + room

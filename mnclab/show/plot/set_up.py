@@ -17,7 +17,7 @@ from mnclab.path.toolpath import Array
 from mnclab.show import looks
 from mnclab.show.chains import LENGTH, ORIGINS, Chains
 from mnclab.show.plot import colours
-from mnclab.show.plot.datums import DatumCross, places_of
+from mnclab.show.plot.datums import DatumCross, places_of, write_names
 from mnclab.show.plot.overlay import line, texts
 from mnclab.show.plot.picture import SIZE, SMALL, VIEWS, Picture, View, arrange, dress, figure_of, roomy, write_legend
 from mnclab.show.plot.probed import draw_material
@@ -73,7 +73,11 @@ def plot_set_up(run: Any, size: tuple[float, float] = SHEET_SIZE) -> Picture:
         _body(ax, view, stock, None, BLANK)
         _dimensions(ax, view, low, high)
         for name, xyz in places:
-            _datum(ax, view, name, xyz)
+            _datum(ax, view, name if lathe else "", xyz)
+        named = [DatumCross(colours.DATUM, name, tuple(xyz.tolist())) for name, xyz in places if not lathe]
+        upright = np.array([low, high])  # the dimension line to the right
+        upright[:, 0] = high[0] + 0.45 * room
+        write_names(ax, view, named, np.empty((0, 2)), [upright])
     artists = {"blank": Patch(**BLANK, label="blank"), "fixture": Patch(**FIXTURE, label="fixture")}
     write_legend(picture, [artists[name] for name in names])
     return picture

@@ -327,6 +327,8 @@ def set_up(run: Any) -> Section:
     ends = zip("XYZ", run.setup.start)
     start = " ".join(f"{axis}{unit.figure(value, 1)}" for axis, value in ends if not (path.lathe and axis == "Y"))
     facts.append(("spindle at the start", f"{start}, machine coordinates{', X as radius' if path.lathe else ''}"))
+    if (chain := run.setup.kinematics) is not None:
+        facts.append(("kinematics", f"{chain.title}: {chain}" if chain.title else str(chain)))
     pieces.append(TextTable((), facts))
     if run.stock is not None:
         caption = "the blank as it is clamped" + (", and its datum" if places else "")

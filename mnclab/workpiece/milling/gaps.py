@@ -70,15 +70,25 @@ class Gaps:
         ends = np.concatenate([ends, ends + long[:, None] * way])[..., :2]
         return np.concatenate([ends.min(axis=0) - wide, ends.max(axis=0) + wide], axis=1)
 
-    def spans(self, x: Array, y: Array) -> Iterator[tuple[Index, Index, Array, Array]]:
+    @cached_property
+    def deepest(self) -> Index:
+        """Those moves (k,) that matter where nobody asks which took a place: of plunges of a tool at one place the deepest."""
+        moves, ends = self.moves, np.stack([self.moves.start, self.moves.end])
+        own = np.where(moves.ways <= STILL, -1, np.arange(len(moves)))  # another move is alone with its number
+        key = np.column_stack([own, self.group, ends[0, :, :2].round(9), *moves.shape])
+        order = np.argsort(ends[..., 2].min(axis=0), kind="stable")
+        return np.sort(order[np.unique(key[order], axis=0, return_index=True)[1]])
+
+    def spans(self, x: Array, y: Array, among: Index | None = None) -> Iterator[tuple[Index, Index, Array, Array]]:
         """Some of the points (m,) after the other (i,): the moves (k,) that may have come over or under them, and from where to
-        where each has taken the upright line there (k, i); upside down where it has not."""
-        boxes, left = self.boxes, [np.arange(len(x))] if len(x) else []
+        where each has taken the upright line there (k, i); upside down where it has not. `among` those moves alone."""
+        among = np.arange(len(self.moves)) if among is None else among
+        boxes, left = self.boxes[among], [np.arange(len(x))] if len(x) else []
         while left:
             some = left.pop()
             px, py = x[some], y[some]
             near = (boxes[:, 0] <= px.max()) & (boxes[:, 2] >= px.min()) & (boxes[:, 1] <= py.max()) & (boxes[:, 3] >= py.min())
-            which = np.flatnonzero(near)
+            which = among[near]
             if len(some) > 1 and len(which) * len(some) > AT_ONCE:
                 order = some[np.argsort(px if np.ptp(px) > np.ptp(py) else py, kind="stable")]
                 left += [order[: len(some) // 2], order[len(some) // 2 :]]
@@ -91,7 +101,7 @@ class Gaps:
     def sides(self, x: Array, y: Array, top: Array, floor: Array) -> tuple[Array, Array]:
         """How high material stands at points (m,) where it went up to `top`, and how low; the former floor where none is left."""
         top, floor = top.copy(), floor.copy()
-        for some, _, low, high in self.spans(x, y):
+        for some, _, low, high in self.spans(x, y, self.deepest):
             upper = np.maximum(_fallen(top[some], low, high), floor[some])
             lower = np.minimum(-_fallen(-floor[some], -high, -low), upper)
             top[some], floor[some] = upper, np.where(upper > floor[some] + NOISE, lower, floor[some])
@@ -100,7 +110,7 @@ class Gaps:
     def left(self, x: Array, y: Array, top: Array, floor: Array) -> Array:
         """How much material (m,), mm, there is between two sides at points."""
         found = top - floor
-        for some, _, low, high in self.spans(x, y):
+        for some, _, low, high in self.spans(x, y, self.deepest):
             low, high = np.maximum(low, floor[some]), np.minimum(high, top[some])
             order = np.argsort(low, axis=0)
             low, high = (np.take_along_axis(each, order, axis=0) for each in (low, high))
@@ -160,7 +170,7 @@ class Gaps:
     def off(self, x: Array, y: Array, z: Array, top: Array, floor: Array) -> Array:
         """How far up or down material is (m,), mm, from heights z over points where it goes from `floor` to `top`."""
         found = np.maximum(np.maximum(z - top, floor - z), 0.0)
-        for some, _, low, high in self.spans(x, y):
+        for some, _, low, high in self.spans(x, y, self.deepest):
             down, up = _fallen(z[some], low, high), -_fallen(-z[some], -high, -low)
             ways = np.where(down < floor[some], np.inf, z[some] - down), np.where(up > top[some], np.inf, up - z[some])
             found[some] = np.where(found[some] > 0, found[some], np.minimum(*ways))
@@ -277,11 +287,20 @@ def _searched(moves: Moves, q: Array, e: Array, begin: Array, end: Array) -> tup
     middle, step = begin + (end - begin) * share[seen.argmin(axis=0)], (end - begin) / FEW
     if len(k := np.flatnonzero(seen.min(axis=0) > 0)):
         low, high, of = np.maximum(middle - step, begin)[k], np.minimum(middle + step, end)[k], (moves[k], q[:, k], e[k])
+        before, behind = np.full(len(k), np.inf), np.full(len(k), np.inf)  # how high at both ends, where that is known
         for _ in range(NARROWINGS):
             one, other = (2 * low + high) / 3, (low + 2 * high) / 3
-            nearer = _above(*of, one) < _above(*of, other)
+            a, b = _above(*of, one), _above(*of, other)
+            nearer = a < b
+            middle[k] = np.where(nearer, one, other)
+            between = np.maximum(2 * a - before, 2 * b - behind)  # lines through two places lie below what is convex
+            goes = (np.minimum(a, b) > 0) & (np.minimum(np.minimum(2 * a - b, 2 * b - a), between) <= 0)
             low, high = np.where(nearer, low, one), np.where(nearer, other, high)
-        middle[k] = (low + high) / 2
+            before, behind = np.where(nearer, before, a), np.where(nearer, b, behind)
+            k, low, high, before, behind = (each[goes] for each in (k, low, high, before, behind))
+            of = moves[k], q[:, k], e[k]
+            if not len(k):
+                break
     k = np.flatnonzero(_above(moves, q, e, middle) <= 0)
     some, middle, of = some[k], middle[k], (moves[k], q[:, k], e[k])
     for ends, found in ((begin[k], first), (end[k], last)):
@@ -291,14 +310,19 @@ def _searched(moves: Moves, q: Array, e: Array, begin: Array, end: Array) -> tup
 
 def _left(of: tuple[Moves, Array, Array], inside: Array, outside: Array) -> Array:
     """Where lines leave tools between places (p,): by halves and where the chord of both heights ends (Illinois) in turn."""
-    within, beyond, rim = _above(*of, inside), _above(*of, outside), outside
-    all_along = beyond <= 0
+    within, beyond = _above(*of, inside), _above(*of, outside)
+    found, k = np.where(beyond > 0, inside, outside), np.flatnonzero(beyond > 0)  # the others are in the tool all along
+    inside, within, outside, beyond = inside[k], within[k], outside[k], beyond[k]
     for turn in range(TURNS):
+        if not len(k):
+            break
         halves = turn % 3 == 0
         share = 0.5 if halves else np.clip(within / np.minimum(within - beyond, -RIM), 0.0, 1.0)
         place = inside + share * (outside - inside)
-        here = _above(*of, place)
+        here = _above(of[0][k], of[1][:, k], of[2][k], place)
         met = here <= 0
         beyond = np.where(met, beyond / (1 if halves else 2), here)
         inside, within, outside = np.where(met, place, inside), np.where(met, here, within), np.where(met, outside, place)
-    return np.where(all_along, rim, inside)
+        found[k], goes = inside, within < -RIM
+        k, inside, within, outside, beyond = (each[goes] for each in (k, inside, within, outside, beyond))
+    return found

@@ -43,14 +43,14 @@ def solid_of(workpiece: Milled, step: float | None = None) -> Solid:
     return Solid(every[used], index.reshape(-1, 3), np.concatenate([row, np.full(len(under) + len(round_), -1)]))
 
 
-BLOCKS = 120  # cells along the longest side of a hollow part
+BLOCKS, THIN = 120, 1e-4  # cells along the longest side of a hollow part; half of one, mm, in which a side of its box lies
 
 
 def of_cells(workpiece: Milled) -> Solid:
     """The closed surface of a part with overhangs: heights are exact, and upright walls right within a cell (by pyvista)."""
     sweep, (low, high) = workpiece.sweep, workpiece.bounds
     step = max(workpiece.step, float((high - low).max()) / BLOCKS)
-    x, y, z = (a + step * (np.arange(int(np.ceil((b - a) / step)) + 2) - 0.5) for a, b in zip(low.tolist(), high.tolist()))
+    x, y, z = (_places(a, b, step) for a, b in zip(low.tolist(), high.tolist()))
     px, py = (each.ravel() for each in np.meshgrid(x, y))
     top, floor = workpiece.surface.sides_at(px, py)
     off = np.maximum(z[:, None] - top, floor - z[:, None])  # how far each place is from the material, up or down
@@ -66,6 +66,12 @@ def of_cells(workpiece: Milled) -> Solid:
     row = np.where(beside[:, 2] > replace(sweep, gaps=None).at(*beside[:, :2].T), row, -1)
     row = np.maximum(row, sweep.gaps.rows_at(*beside.T)) if sweep.gaps else row
     return Solid(points, faces, np.where(((beside > low) & (beside < high)).all(axis=1), row, -1))
+
+
+def _places(a: float, b: float, step: float) -> Array:
+    """Nodes about a step apart, whose first cell and last one are so thin that the ends of a box stand in their middles."""
+    inner = np.linspace(a, b, max(int(np.ceil((b - a) / step)), 1) + 1)[1:-1]
+    return np.concatenate([[a - THIN, a + THIN], inner, [b - THIN, b + THIN]])
 
 
 def _join(above: Lattice, below: Lattice, upper: Index, lower: Index) -> None:
