@@ -261,9 +261,9 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index, tolerance: floa
         yield from told("feed", a, b, "mm/min", name, RATE)
     a, b = (np.where(turns == 2, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
-    a, b = one.held[p] * 1, other.held[q] * 1
+    a, b = one.held[p].astype(float), other.held[q].astype(float)
     yield from told("restart", a, b, "", lambda held: "held through the tool change" if held else "started behind it")
-    a, b = one.synchronous[p] * 1, other.synchronous[q] * 1
+    a, b = one.synchronous[p].astype(float), other.synchronous[q].astype(float)
     yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
     even = np.isnan(one.surface[p]) == np.isnan(other.surface[q])

@@ -65,9 +65,9 @@ def program(path: Toolpath, control: str, tool: int, spindle: float, decimals: i
     """
     control = choice(control, "the control", tuple(FRAMES))
     tool, decimals = whole(tool, "the number of the tool"), whole(decimals, "the number of decimals")
-    checkfigure(tool, "the number of the tool", at_least=1, at_most=9999)
-    checkfigure(decimals, "the number of decimals", at_least=3, at_most=9)
-    checkfigure(spindle, "the spindle speed (rev/min)", at_least=0.001, at_most=1e6)
+    check_number(tool, "the number of the tool", at_least=1, at_most=9999)
+    check_number(decimals, "the number of decimals", at_least=3, at_most=9)
+    check_number(spindle, "the spindle speed (rev/min)", at_least=0.001, at_most=1e6)
     turning = abs(float(path.spindle[0])) if len(path) else 0.0
     values = {"tool": tool, "spindle": figure(turning or float(spindle), FEEDS), "height": HEIGHT}
     head, foot = (lines.format(**values).split("\n") for lines in FRAMES[control])

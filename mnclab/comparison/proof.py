@@ -299,7 +299,8 @@ def _contours(
         int(np.searchsorted(thin.toolpath.step, run.toolpath.step[row])) if row >= 0 else row
         for thin, run, row in zip(bare, runs, found[-1].rows)
     )
-    return (*(_told(each, bare, names, allowed) for each in why), _told(found[-1], runs, names, allowed)._replace(rows=(a, b))), bare
+    stops = _told(found[-1], runs, names, allowed)._replace(rows=(a, b))
+    return (*(_told(each, bare, names, allowed) for each in why), stops), bare
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:

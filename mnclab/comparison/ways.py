@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -60,7 +59,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
     kind = np.where((lower > tolerance) & (not a.lathe), LOWER, HIGHER)
-    told: dict[int, tuple[float, tuple[str, ...]]] = {}
+    told: dict[int, tuple[float, tuple[str, str]]] = {}
     bent = (beside > tolerance) | (a.turns[i] > 1) | (b.turns[j] > 1)
     goes = (kind == HIGHER) & (a.lathe | (bent & np.isfinite(b.low[j])))
     least = a.least(around) if goes.any() else np.empty(0)
@@ -82,7 +81,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
 
 def _elsewhere(
     a: Ways, i: int, b: Ways, j: int, tolerance: float, around: Around, least: Array
-) -> tuple[int, tuple[float, tuple[str, ...]]]:  # fmt: skip
+) -> tuple[int, tuple[float, tuple[str, str]]]:  # fmt: skip
     """What the way before cut j of b is beside that before cut i of a, by how much, and in words where it comes nearer.
 
     What stands on the machine is known of what the setup names alone. Where that is nothing, b must be higher than a was. `least`
@@ -94,8 +93,8 @@ def _elsewhere(
     far = around.far(places, b.radius(j))
     if (near := np.flatnonzero(far < least - tolerance)).size:
         body = int(near[(least - far)[near].argmax()])
-        said = (f"{figure(float(each[body]), 3)} mm from {around.names[body]}" for each in (least, far))
-        return NEARER, (float((least - far)[body]), tuple(said))
+        before, now = (f"{figure(float(each[body]), 3)} mm from {around.names[body]}" for each in (least, far))
+        return NEARER, (float((least - far)[body]), (before, now))
     higher = around.fixtures or (not a.lathe and places[:, 2].min() > a.over(i) + tolerance)
     return HIGHER if higher else ASIDE, (aside, ("", ""))
 
@@ -174,16 +173,16 @@ class Ways:
         """Which of the rapids before cuts that are `deep` end straight down in a hole that the same tool has cut as deep: pecks
         go on there; as places in `links`."""
         last = self.begin[links] + self.count[links] - 1
-        deep = np.flatnonzero(deep & (self.count[links] > 0))
-        deep = deep[~self.aside[last[deep]]]
-        if not len(deep):
-            return deep
+        some = np.flatnonzero(deep & (self.count[links] > 0))
+        some = some[~self.aside[last[some]]]
+        if not len(some):
+            return some
         cuts, tool = self.motion.end[self.motion.cuts], self.motion.tool
-        places = np.round(np.vstack([self.end[last[deep]], cuts])[:, :2] / (2 * tolerance))
-        places = np.unique(places, axis=0, return_inverse=True)[1].reshape(-1)
-        of, order = places[: len(deep)], np.argsort(places[len(deep) :], kind="stable")
-        known, found = places[len(deep) :][order], []
-        for k, begin, stop in zip(deep.tolist(), np.searchsorted(known, of), np.searchsorted(known, of, "right")):
+        places = np.round(np.vstack([self.end[last[some]], cuts])[:, :2] / (2 * tolerance))
+        place = np.unique(places, axis=0, return_inverse=True)[1].reshape(-1)
+        of, order = place[: len(some)], np.argsort(place[len(some) :], kind="stable")
+        known, found = place[len(some) :][order], list[int]()
+        for k, begin, stop in zip(some.tolist(), np.searchsorted(known, of), np.searchsorted(known, of, "right")):
             here = order[begin:stop]  # cuts that end at this place
             here = here[(here < links[k]) & (tool[self.motion.cuts[here]] == tool[self.rapids[last[k]]])]
             found += [k] * bool((cuts[here, 2] <= self.end[last[k], 2] + tolerance).any())
