@@ -81,10 +81,13 @@ def first_apart(
 def of_contour(found: Found, one: Motion, other: Motion, tolerance: float) -> Found:
     """What was found in cuts at the blocks whose contour is not the same."""
     rows = _rows(one, other, found.rows, tolerance)
-    if NONE in found.values and min(rows) >= 0 and one.path.side[rows[0]] and other.path.side[rows[1]]:
+    if min(rows) >= 0 and one.path.side[rows[0]] and other.path.side[rows[1]]:
         ends = (motion.contour.end[_row(motion.contour, motion.path.step[row])] for motion, row in zip((one, other), rows))
-        if np.linalg.norm(np.subtract(*ends)) <= tolerance:  # one block, which corners make more cuts of
+        off = float(np.linalg.norm(np.subtract(*ends)))
+        if NONE in found.values and off <= tolerance:  # one block, which corners make more cuts of
             return found._replace(rows=rows, values=("", ""), amount=float("nan"), moves=1)
+        if rows != found.rows and not any(found.values):  # it differs by what it says, not by what the tool makes of the corner
+            return found._replace(rows=rows, amount=off if off > tolerance else found.amount)
     return found._replace(rows=rows)
 
 
