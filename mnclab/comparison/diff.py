@@ -52,8 +52,7 @@ class Traces:
     @property
     def distance(self) -> Array:
         """mm (m,)."""
-        found: Array = np.linalg.norm(self.places - self.nearest, axis=1)
-        return found
+        return np.asarray(np.linalg.norm(self.places - self.nearest, axis=1))
 
 
 @dataclass(frozen=True)
@@ -189,19 +188,17 @@ def deviation(
 def strokes_of(path: Toolpath, chord_error: float) -> tuple[Array, Array, NDArray[np.int64]]:
     """Straight pieces of the motion: starts and ends (n, 3) and rows (n,)."""
     xyz, row = points(path, chord_error)
-    if not len(row):
-        return xyz, xyz, row
-    start = xyz[:-1].copy()
-    first = np.concatenate([[True], row[2:] != row[1:-1]])
-    start[first] = path.start[row[1:][first]]
-    return start, xyz[1:], row[1:]
+    start, row = xyz[:-1].copy(), row[1:]
+    first = np.diff(row, prepend=-1) > 0
+    start[first] = path.start[row[first]]
+    return start, xyz[1:], row
 
 
 def _places(start: Array, end: Array, row: NDArray[np.int64], step: float) -> tuple[Array, NDArray[np.int64]]:
     """Places (m, 3) along the strokes of each row, its both ends among them, and their rows (m,)."""
     if not len(row):
         return start, row
-    first = np.flatnonzero(np.append(True, row[1:] != row[:-1]))
+    first = np.flatnonzero(np.diff(row, prepend=-1))
     last = np.append(first[1:], len(row)) - 1
     length = np.linalg.norm(end - start, axis=1)
     upto = np.cumsum(length)
@@ -230,18 +227,15 @@ def nearest_of(places: Array, start: Array, end: Array) -> Array:
     found = np.empty_like(places)
     for at in range(0, len(places), CHUNK):
         here = places[at : at + CHUNK]
-        square = np.zeros((len(here), len(groups)))
-        for k in range(3):
-            value = here[:, k, None]
-            square += np.maximum(np.maximum(low[:, k] - value, value - high[:, k]), 0) ** 2
-        gap = np.sqrt(square)
+        off = (np.maximum(np.maximum(a - p[:, None], p[:, None] - b), 0) for a, p, b in zip(low.T, here.T, high.T))
+        gap = np.sqrt(sum(each**2 for each in off))
         some = start[::SPARSE] - here[0]
         nearest = (np.einsum("ij,ij->i", some, some) - 2 * (here - here[0]) @ some.T).argmin(axis=1)
         best = np.unique(nearest * SPARSE // GROUP)
         near = _on_strokes(here, start, end, best)
         reach = np.linalg.norm(here - near, axis=1)
         needed = np.flatnonzero((gap < reach[:, None] + 1e-12).any(axis=0))
-        found[at : at + CHUNK] = _on_strokes(here, start, end, needed) if not np.isin(needed, best).all() else near
+        found[at : at + CHUNK] = near if np.isin(needed, best).all() else _on_strokes(here, start, end, needed)
     return found
 
 

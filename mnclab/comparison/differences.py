@@ -7,13 +7,11 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mnclab.comparison.contour import of_contour
 from mnclab.comparison.diff import deviation, nearest_of, strokes_of
-from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, rows_of
+from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
-from mnclab.comparison.pairs import Pairs, alongside, apart, leaning, one_swing, paired, same_places
+from mnclab.comparison.pairs import Pairs, Stretch, alongside, apart, leaning, one_swing, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
@@ -64,19 +62,15 @@ def in_order(found: list[Found], one: Motion, other: Motion) -> list[Found]:
 
 def _of_stretches(
     one: Motion, other: Motion, pairs: Pairs, tolerance: float
-) -> tuple[list[Found], NDArray[np.int64], list[tuple[int, int, int, int]]]:
+) -> tuple[list[Found], Index, list[Stretch]]:
     """What differs where cuts are not the same, the pairs (k, 2) of cuts that are still each other's, and stretches that are."""
-    found, odd, one_way = list[Found](), [], []
-    for stretch in [*pairs.chords, *pairs.odd]:
+    found, odd, one_way = list[Found](), list[Stretch](), list[Stretch]()
+    for stretch in pairs.odd:
         i, to_i, j, to_j = stretch
         longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
-        alike = stretch if stretch in pairs.chords else None
-        alike = alike or next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
-        if alike is None:
-            odd.append(stretch)
-            continue
-        i, to_i, j, to_j = alike
-        one_way.append(alike)
+        alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
+        (one_way if alike else odd).append(alike or stretch)
+    for i, to_i, j, to_j in (one_way := pairs.chords + one_way):
         bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
         if abs(bent[0] - bent[1]) >= BENT:
             arcs = ("arcs", several(to_j - j, "line")) if bent[0] > bent[1] else (several(to_i - i, "line"), "arcs")
@@ -89,17 +83,18 @@ def _of_stretches(
         fits = np.maximum(apart(one, one.cuts[a[p]], other, other.cuts[b[q]]), begun) <= tolerance
         more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
         lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
-    left = [np.concatenate([each[k] for each in lone] or [np.empty(0, np.int64)]) for k in (0, 1)]
+    left = [np.concatenate([np.empty(0, np.int64), *(each[k] for each in lone)]) for k in (0, 1)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
-    more += [(i, j) for i, j in moved.tolist()]
+    more += map(tuple, moved.tolist())
     for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
         a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
-            rows, k = [*rows_of(one, int(a[0]), other, int(b[0]))], int(len(a) == 1)
-            many = (one.cuts[a], other.cuts[b])[k]
-            rows[k], off = _leaves((one, other)[k], many, (other, one)[k], int((b, a)[k][0]), tolerance)
-            found.append(Found("geometry", (rows[0], rows[1]), off, "mm", ("", ""), max(len(a), len(b))))
+            rows = rows_of(one, int(a[0]), other, int(b[0]))
+            k, many, whole, at = (1, b, one, a) if len(a) == 1 else (0, a, other, b)
+            row, off = _leaves((one, other)[k], (one, other)[k].cuts[many], whole, int(at[0]), tolerance)
+            rows = (rows[0], row) if k else (row, rows[1])
+            found.append(Found("geometry", rows, off, "mm", ("", ""), len(many)))
             more.append((int(a[0]), int(b[0])))
             continue
         p, q = alongside(one, a, other, b, tolerance)
@@ -238,13 +233,13 @@ def _off_table(tips: Array, tolerance: float, k: int) -> tuple[str, str]:
     return one, other
 
 
-def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> NDArray[np.int64]:
+def _elsewhere(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) -> Index:
     """Of cuts that are left, those pairs (k, 2) that are the same, whatever the order."""
     p, q = one.cuts[i], other.cuts[j]
     tables = [np.column_stack([m.kind[e], m.start[e], m.end[e]]) for m, e in ((one, p), (other, q))]
-    pair = same_places(tables[0], tables[1], tolerance, (slice(1), slice(1, 4), slice(4, 7)))
-    good = apart(one, p[pair[:, 0]], other, q[pair[:, 1]]) <= tolerance
-    return np.stack([i[pair[good, 0]], j[pair[good, 1]]], axis=1)
+    a, b = same_places(tables[0], tables[1], tolerance, (slice(1), slice(1, 4), slice(4, 7))).T
+    good = apart(one, p[a], other, q[b]) <= tolerance
+    return np.stack([i[a[good]], j[b[good]]], axis=1)
 
 
 # How they are cut.
@@ -263,16 +258,15 @@ def _of_settings(one: Motion, other: Motion, i: Index, j: Index, tolerance: floa
         a, b = (each[at] for each in shown or (a, b))
         return grouped(kind, one, i[at], other, j[at], lambda k: (name(a[k]), name(b[k])), off, unit, (a, b))
 
-    turns = np.isfinite(one.per_rev[p]) & np.isfinite(other.per_rev[q])
-    a, b = (np.where(turns, np.nan, m.feed[e]) for m, e in ((one, p), (other, q)))
-    mixed = np.isfinite(one.per_rev[p]) != np.isfinite(other.per_rev[q])
-    for here, name in ((~mixed, _named("F")), (mixed, _named("", " mm/min"))):
-        yield from told("feed", np.where(here, a, 0), np.where(here, b, 0), "mm/min", name, RATE)
-    a, b = (np.where(turns, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
+    turns = np.isfinite([one.per_rev[p], other.per_rev[q]]).sum(axis=0)  # how many of both feed by the turn
+    for many, name in ((0, _named("F")), (1, _named("", " mm/min"))):
+        a, b = (np.where(turns == many, m.feed[e], 0) for m, e in ((one, p), (other, q)))
+        yield from told("feed", a, b, "mm/min", name, RATE)
+    a, b = (np.where(turns == 2, m.per_rev[e], np.nan) for m, e in ((one, p), (other, q)))
     yield from told("feed", a, b, "mm/rev", _named("F", " a turn"), RATE)
-    a, b = one.held[p].astype(int), other.held[q].astype(int)
+    a, b = one.held[p].astype(float), other.held[q].astype(float)
     yield from told("restart", a, b, "", lambda held: "held through the tool change" if held else "started behind it")
-    a, b = one.synchronous[p].astype(int), other.synchronous[q].astype(int)
+    a, b = one.synchronous[p].astype(float), other.synchronous[q].astype(float)
     yield from told("feed", a, b, "", lambda value: "locked to the spindle" if value else "free of the spindle")
     yield from told("spindle", one.surface[p], other.surface[q], "m/min", _named("cutting speed "), RATE)
     even = np.isnan(one.surface[p]) == np.isnan(other.surface[q])

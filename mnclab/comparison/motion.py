@@ -102,24 +102,19 @@ def motion_of(run: Any, tools: list[Any]) -> Motion:
     n = len(path)
     tips = _true_tips(path) + np.where(path.kind == Kind.RAPID, 0.0, run.tip_lift)
     beside = {"coolant": _coolant(run), "tool": _tools(run, tools), "held": _held(run)}
-    travel = np.abs(path.end - path.start).max(axis=1) if n else np.empty(0)
-    turned = np.zeros(n, dtype=bool)
-    if path.rotary.strides[0] if n else False:
-        turned[1:] = np.abs(np.diff(path.rotary, axis=0)).max(axis=1) * ARM > NO_WAY
-    moved = path.is_motion & ((travel > NO_WAY) | turned | (path.kind == Kind.ARC))
-    rows = np.flatnonzero(moved)
+    travel = np.abs(path.end - path.start).max(axis=1)
+    turned = np.abs(np.diff(path.rotary, axis=0, prepend=path.rotary[:1])).max(axis=1) * ARM
+    rows = np.flatnonzero(path.is_motion & ((np.maximum(travel, turned) > NO_WAY) | (path.kind == Kind.ARC)))
     event = np.isin(path.kind, (Kind.DWELL, Kind.TOOL, Kind.STOP))
-    lift = tips[rows, None] * np.array([0.0, 0.0, 1.0]) if tips.any() else 0.0
-    columns: dict[str, Any] = {name: gathered(getattr(path, name), rows) for name in KEPT}
-    columns |= {name: gathered(each, rows) for name, each in beside.items()}
+    kept = {name: getattr(path, name) for name in KEPT} | beside
+    columns: dict[str, Any] = {name: gathered(each, rows) for name, each in kept.items()}
     if tips.any():
-        columns |= {name: columns[name] + lift for name in ("start", "end", "centre")}
+        columns |= {name: columns[name] + np.outer(tips[rows], [0.0, 0.0, 1.0]) for name in ("start", "end", "centre")}
     goes_on = _goes_on(columns, np.cumsum(event)[rows])
     first = np.flatnonzero(~goes_on)
     last = np.append(first[1:], len(rows))[: len(first)] - 1
     if len(first) < len(rows):
-        sweep = np.add.reduceat(columns["sweep"], first) if len(first) else columns["sweep"]
-        ends = {"end": columns["end"][last], "sweep": sweep}
+        ends = {"end": columns["end"][last], "sweep": np.add.reduceat(columns["sweep"], first)}
         columns = {name: gathered(each, first) for name, each in columns.items()} | ends
     dwell, pause = np.zeros(len(first) + 1), np.full(len(first) + 1, -1, dtype=np.int64)
     events = np.flatnonzero(np.isin(path.kind, (Kind.DWELL, Kind.STOP)))
@@ -140,8 +135,7 @@ def _goes_on(columns: dict[str, Any], event: NDArray[Any]) -> Mask:
     same = (kind[1:] == kind[:-1]) & (event[1:] == event[:-1]) & (columns["rotary"][1:] == columns["rotary"][:-1]).all(axis=1)
     alike = np.ones(len(same), dtype=bool)
     for name in ("feed", "per_rev", "surface", "spindle", "coolant", "side", "tool", "radius", "synchronous"):
-        here = columns[name]
-        if k and here.strides[0]:
+        if k and (here := columns[name]).strides[0]:
             alike &= (here[1:] == here[:-1]) | ((here[1:] != here[1:]) & (here[:-1] != here[:-1]))
     same &= alike | (kind[1:] == Kind.RAPID)
     at = np.flatnonzero(same & (kind[1:] != Kind.ARC) & (kind[1:] != Kind.PROBE))

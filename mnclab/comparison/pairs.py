@@ -64,23 +64,19 @@ def one_swing(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
 
 def as_chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> int:
     """How many lines from j on lie on the arc i within the tolerance, chord error included, and end where it ends; else 0."""
-    lines = np.flatnonzero(other.kind[j : j + 4096] != Kind.LINE)
-    many = int(lines[0]) if len(lines) else len(other.kind[j : j + 4096])
-    if not many:
-        return 0
-    arc = Bends(cast(Any, one), np.full(1, i))
+    lines = np.append(other.kind[j : j + 4096] == Kind.LINE, False)
+    many = int(lines.argmin()) if one.kind[i] == Kind.ARC else 0
     ends = other.end[j : j + many]
-    places = np.concatenate([other.start[j : j + 1], ends])
-    places = np.stack([(places[:-1] + places[1:]) / 2, places[1:]], axis=1).reshape(-1, 3)  # the middle of each, and its end
-    middle = arc.start[0] - arc.spoke[0]
-    angle = np.unwrap(np.append(0.0, np.arctan2((places - middle) @ arc.side[0], (places - middle) @ arc.spoke[0])))[1:]
-    share = angle / arc.sweep[0]
-    bends = Bends(cast(Any, one), np.full(len(share), i))
-    fits = np.linalg.norm(bends.place(share) - places, axis=1) <= tolerance
+    places = np.stack([(other.start[j : j + many] + ends) / 2, ends], axis=1).reshape(-1, 3)  # the middle of each, and its end
+    arc = Bends(cast(Any, one), np.full(2 * many, i))
+    gone = places - (arc.start - arc.spoke)
+    seen = (np.einsum("ij,ij->i", gone, each) for each in (arc.side, arc.spoke))
+    share = np.unwrap(np.append(0.0, np.arctan2(*seen)))[1:] / arc.sweep
+    fits = np.linalg.norm(arc.place(share) - places, axis=1) <= tolerance
     fits &= (share > -1e-3) & (np.diff(share, prepend=0.0) > -1e-9)
-    upto = int(np.argmin(fits)) if not fits.all() else len(fits)
-    there = np.flatnonzero((np.linalg.norm(ends - one.end[i], axis=1) <= tolerance) & (share[1::2] > 0.9))
-    return int(there[0]) + 1 if len(there) and 2 * (there[0] + 1) <= upto else 0
+    there = (np.linalg.norm(ends - one.end[i], axis=1) <= tolerance) & (share[1::2] > 0.9)
+    upto = np.flatnonzero(there & np.logical_and.accumulate(fits)[1::2])
+    return int(upto[0]) + 1 if len(upto) else 0
 
 
 # Which cut of one program is which of the other.
@@ -88,6 +84,7 @@ def as_chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> i
 WINDOWS = (4, 24, 160, 800)  # cuts ahead in which two programs are sought to go on alike
 ENOUGH = 3  # cuts in a row
 MOST = 2000  # places where they do not
+Stretch = tuple[int, int, int, int]  # of cuts by their ranks: i and to of one, j and to of the other
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,17 +96,15 @@ class Pairs:
 
     i: Index
     j: Index
-    chords: list[tuple[int, int, int, int]]
-    odd: list[tuple[int, int, int, int]]
+    chords: list[Stretch]
+    odd: list[Stretch]
 
 
 def paired(one: Motion, other: Motion, tolerance: float) -> Pairs:
     """The cuts of two motions, as far as they go alike."""
     n, m = len(one.cuts), len(other.cuts)
     i = j = 0
-    runs: list[tuple[int, int, int]] = []
-    chords: list[tuple[int, int, int, int]] = []
-    odd: list[tuple[int, int, int, int]] = []
+    runs, chords, odd = list[tuple[int, int, int]](), list[Stretch](), list[Stretch]()
 
     def alike(p: Index, q: Index) -> Mask:
         return np.asarray(apart(one, one.cuts[p], other, other.cuts[q]) <= tolerance)
@@ -127,29 +122,24 @@ def paired(one: Motion, other: Motion, tolerance: float) -> Pairs:
         i, j = i + many, j + many
         if i == n or j == m or len(odd) == MOST:
             break
-        found = _chords(one, i, other, j, tolerance)
-        if any(found):
-            chords.append((i, i + found[0], j, j + found[1]))
-        else:
-            found = _ahead(alike, n - i, m - j, i, j)
-            odd.append((i, i + found[0], j, j + found[1]))
-        i, j = i + found[0], j + found[1]
+        bent = _chords(one, i, other, j, tolerance)
+        p, q = bent if any(bent) else _ahead(alike, n - i, m - j, i, j)
+        (chords if any(bent) else odd).append((i, i + p, j, j + q))
+        i, j = i + p, j + q
     if i < n or j < m:
         odd.append((i, n, j, m))
-    counts = np.array([many for _, _, many in runs])
+    first, second, counts = np.array(runs).T
     which, rank = counted(counts)
-    begin = np.array([(i, j) for i, j, _ in runs])[which]
-    return Pairs(begin[:, 0] + rank, begin[:, 1] + rank, chords, odd)
+    return Pairs(first[which] + rank, second[which] + rank, chords, odd)
 
 
 def _chords(one: Motion, i: int, other: Motion, j: int, tolerance: float) -> tuple[int, int]:
     """How many cuts of both are one arc here, said as lines by one of them; none if it is not so."""
     p, q = int(one.cuts[i]), int(other.cuts[j])
-    if one.kind[p] == Kind.ARC and (many := as_chords(one, p, other, q, tolerance)):
+    if many := as_chords(one, p, other, q, tolerance):
         return 1, many
-    if other.kind[q] == Kind.ARC and (many := as_chords(other, q, one, p, tolerance)):
-        return many, 1
-    return 0, 0
+    many = as_chords(other, q, one, p, tolerance)
+    return many, min(many, 1)
 
 
 def _ahead(alike: Callable[[Index, Index], Mask], n: int, m: int, i: int, j: int) -> tuple[int, int]:
@@ -195,8 +185,7 @@ def alongside(one: Motion, i: Index, other: Motion, j: Index, tolerance: float) 
     about = ~sense & (np.abs(one.centre[p][:, None] - other.centre[q]) <= tolerance).all(axis=2)  # nan of lines
     cost = np.select([about, step.all(axis=2), flat & same, same, flat], LIKE, STRANGE) + LIKE[2] * kind + LIKE[1] / 2 * sense
     lone = LONE * np.arange(m, -1, -1)
-    least = np.empty((n + 1, m + 1))  # from each two cuts on
-    least[n] = lone
+    least = np.tile(lone, (n + 1, 1))  # from each two cuts on
     for k in range(n - 1, -1, -1):
         here = np.minimum(np.append(least[k + 1, 1:] + cost[k], np.inf), least[k + 1] + LONE)
         least[k] = np.minimum.accumulate((here - lone)[::-1])[::-1] + lone

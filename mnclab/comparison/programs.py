@@ -17,6 +17,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from mnclab.geometry.arcs import FULL
+from mnclab.path.listing import figure
 from mnclab.path.toolpath import Kind, Toolpath
 from mnclab.text.given import check_number, choice, whole
 
@@ -68,7 +69,7 @@ def program(path: Toolpath, control: str, tool: int, spindle: float, decimals: i
     check_number(decimals, "the number of decimals", at_least=3, at_most=9)
     check_number(spindle, "the spindle speed (rev/min)", at_least=0.001, at_most=1e6)
     turning = abs(float(path.spindle[0])) if len(path) else 0.0
-    values = {"tool": tool, "spindle": _number(turning or float(spindle), FEEDS), "height": HEIGHT}
+    values = {"tool": tool, "spindle": figure(turning or float(spindle), FEEDS), "height": HEIGHT}
     head, foot = (lines.format(**values).split("\n") for lines in FRAMES[control])
     ways = _blocks(path, decimals, 10.0**-decimals, control != MNC)
     written = [*head, *(_klartext if control == TNC else _words)(ways, decimals), *foot]
@@ -96,7 +97,7 @@ def _blocks(path: Toolpath, decimals: int, unit: float, helices: bool) -> Iterat
             to = _rounded(end, decimals)
             if to != at or sweep:
                 middle = _rounded(centre[:2], decimals) if sweep else ()
-                word = "" if kind == Kind.RAPID else "F" + _number(feed, FEEDS)
+                word = "" if kind == Kind.RAPID else "F" + figure(feed, FEEDS)
                 yield Block(at, to, middle, sweep, kind == Kind.RAPID, word if word != modal else "")
                 modal = word or modal
             at = to
@@ -116,8 +117,8 @@ def _words(ways: Iterator[Block], decimals: int) -> Iterator[str]:
     """G0 to G3, with I and J from the start."""
     for way in ways:
         code = "G0" if way.rapid else "G1" if not way.sweep else "G3" if way.sweep > 0 else "G2"
-        words = [code, *(axis + _number(value, decimals) for axis, value in way.targets)]
-        words += [axis + _number(c - s, decimals) for axis, c, s in zip("IJ", way.centre, way.start, strict=False)]
+        words = [code, *(axis + figure(value, decimals) for axis, value in way.targets)]
+        words += [axis + figure(c - s, decimals) for axis, c, s in zip("IJ", way.centre, way.start, strict=False)]
         yield " ".join([*words, way.feed]).rstrip()
 
 
@@ -134,12 +135,6 @@ def _klartext(ways: Iterator[Block], decimals: int) -> Iterator[str]:
         yield " ".join([*words, "FMAX" if way.rapid else way.feed]).rstrip()
 
 
-def _number(value: float, decimals: int) -> str:
-    """Without an exponent, zeros behind, or a sign before zero."""
-    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
-    return "0" if text in ("-0", "") else text
-
-
 def _signed(value: float, decimals: int) -> str:
-    text = _number(value, decimals)
+    text = figure(value, decimals)
     return text if text.startswith("-") else "+" + text

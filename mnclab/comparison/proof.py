@@ -287,7 +287,7 @@ def _contours(
     if any(each.kind == "geometry" for each in found) or not any(run.programmed.side.any() for run in runs):
         return None
     thin = [{number: replace(tool, radius=0.0) for number, tool in (run.setup.tools or {}).items()} for run in runs]
-    bare = tuple(run.again(replace(run.setup, tools=tools)) for run, tools in zip(runs, thin))
+    bare: Any = tuple(run.again(replace(run.setup, tools=tools)) for run, tools in zip(runs, thin))
     if any(map(_broken, bare)):
         return None
     of_tools = list[Any]()
@@ -295,33 +295,33 @@ def _contours(
     why = [each for each in differences(one, other, tolerance, Around()) if each.kind in ("geometry", "depth")]
     if not why:
         return None
-    rows = [
+    a, b = (
         int(np.searchsorted(thin.toolpath.step, run.toolpath.step[row])) if row >= 0 else row
         for thin, run, row in zip(bare, runs, found[-1].rows)
-    ]
-    stops = _told(found[-1], runs, names, allowed)._replace(rows=(rows[0], rows[1]))
-    return (*(_told(each, (bare[0], bare[1]), names, allowed) for each in why), stops), (bare[0], bare[1])
+    )
+    stops = _told(found[-1], runs, names, allowed)._replace(rows=(a, b))
+    return (*(_told(each, bare, names, allowed) for each in why), stops), bare
 
 
 def _stopped(runs: tuple[Any, Any], found: list[Found]) -> list[Found]:
     """Where the programs stop, and what differs before."""
-    last = [len(run.toolpath) - 1 for run in runs]
-    ends = tuple(row if _broken(run) else 1 << 40 for row, run in zip(last, runs))
-    rows = [row if _broken(run) else _beside(run, other) for row, run, other in zip(last, runs, runs[::-1])]
-    known = [each for each in found if each.rows[0] < ends[0] and each.rows[1] < ends[1]]
-    for k, run in enumerate(runs):  # where the other one goes on, as far as that is known
-        more = [each.rows[k] for each in found if each.values[1 - k] == NONE and not _broken(run)]
-        rows[k] = min(more, default=rows[k])
-    known = [each for each in known if NONE not in each.values]
-    said = tuple(_why(run) if _broken(run) else "goes on" for run in runs)
-    return [*(each for each in known if each.kind != "leftovers"), Found("stops", (rows[0], rows[1]), float("nan"), "", said)]  # type: ignore[arg-type]
+    rows, said = list[int](), list[str]()
+    known = [each for each in found if each.kind != "leftovers" and NONE not in each.values]
+    for k, (run, other) in enumerate(zip(runs, runs[::-1])):
+        if _broken(run):
+            alarm = next((each for each in run.alarms if each.severity == ALARM), None)
+            rows, said = [*rows, len(run.toolpath) - 1], [*said, f"stops{f': {alarm.message}' if alarm else ''}"]
+            known = [each for each in known if each.rows[k] < rows[k]]
+        else:  # where it goes on, as far as that is known
+            alone = [each.rows[k] for each in found if each.values[1 - k] == NONE]
+            rows, said = [*rows, min(alone, default=_beside(run, other))], [*said, "goes on"]
+    return [*known, Found("stops", (rows[0], rows[1]), float("nan"), "", (said[0], said[1]))]
 
 
 def _beside(run: Any, other: Any) -> int:
     """The row of a run that ends nearest to where the other one stopped."""
-    if not (len(run.toolpath) and len(other.toolpath)):
-        return len(run.toolpath) - 1
-    return int(np.linalg.norm(run.toolpath.end - other.toolpath.end[-1], axis=1).argmin())
+    ends, last = run.toolpath.end, other.toolpath.end[-1:]
+    return int(np.linalg.norm(ends - last, axis=1).argmin()) if len(ends) and len(last) else len(ends) - 1
 
 
 def _broken(run: Any) -> bool:
@@ -329,14 +329,7 @@ def _broken(run: Any) -> bool:
     return bool(run.reach) or not run.ok
 
 
-def _why(run: Any) -> str:
-    alarm = next((each for each in run.alarms if each.severity == ALARM), None)
-    return f"stops{f': {alarm.message}' if alarm else ''}"
-
-
-def _told(
-    found: Found, runs: tuple[Any, Any], names: tuple[str, str], allowed: Collection[str]
-) -> Difference:
+def _told(found: Found, runs: tuple[Any, Any], names: tuple[str, str], allowed: Collection[str]) -> Difference:
     """A difference with the lines, blocks and places of its rows."""
     halts = (run.halt if found.kind == "stops" else None for run in runs)
     one, other = (_spot(run, row, halt, name) for run, row, halt, name in zip(runs, found.rows, halts, names))

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 
-from mnclab.comparison.chips import fed, tooth_rate
-from mnclab.comparison.levels import Level, Look
+from mnclab.comparison.levels import Level, Look, fed, tooth_rate
 from mnclab.comparison.programs import program
 from mnclab.comparison.tables import Table, Titles, Tried
 from mnclab.geometry.regions import Region

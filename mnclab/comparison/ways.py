@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
+from mnclab.comparison.diff import nearest_of
 from mnclab.comparison.found import RATE, Found, from_where
 from mnclab.comparison.motion import Motion
+from mnclab.comparison.pairs import Stretch
+from mnclab.geometry.curves import counted
 from mnclab.path.listing import figure, point
 from mnclab.path.toolpath import Array, Index, Kind, Mask
 
@@ -20,7 +22,7 @@ PLACES = 200_000  # of all rapids
 SHARES = np.linspace(0.0, 1.0, 33)[:, None, None]  # of a rapid: where it is looked at
 
 
-def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> tuple[Index, Index]:
+def links(one: Motion, other: Motion, i: Index, j: Index, parts: list[Stretch]) -> tuple[Index, Index]:
     """Which ways between cuts (k,), by the rank of the cut behind them, are each other's: both their ends are."""
     wide = len(other.cuts) + 1
     stretch = np.array(parts, dtype=np.int64).reshape(-1, 4)
@@ -42,13 +44,9 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     a, b = Ways(one, tolerance), Ways(other, tolerance)
     many = a.count[i], b.count[j]
     odd = many[0] != many[1]
-    at = np.flatnonzero(~odd & (many[0] > 0))
-    if len(at):
-        which = np.repeat(at, many[0][at])
-        rank = np.arange(len(which)) - np.repeat(np.cumsum(many[0][at]) - many[0][at], many[0][at])
-        ends = [side.motion.end[side.rapids[side.begin[k[which]] + rank]] for side, k in ((a, i), (b, j))]
-        off = np.linalg.norm(ends[0] - ends[1], axis=1)
-        odd[which[off > tolerance]] = True
+    which, rank = counted(np.where(odd, 0, many[0]))
+    ends = [side.end[side.begin[k[which]] + rank] for side, k in ((a, i), (b, j))]
+    odd[which[np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance]] = True
     found = _beyond(a, b, i, j, tolerance)
     i, j = i[odd], j[odd]
     if not len(i):
@@ -56,18 +54,17 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
     upright = np.isinf(a.low[i]) & (a.count[i] > 0)  # only up and down
     down = _gap(a.last[i], b.last[j])
-    deep = np.flatnonzero(down > tolerance)
-    down[deep[b.in_own_hole(j[deep], tolerance)]] = 0.0
+    down[b.in_own_hole(j, down > tolerance, tolerance)] = 0.0
     lower = np.maximum(_gap(np.where(upright, a.high[i], a.low[i]), b.low[j]), down)
     beside = np.abs(a.box[i] - b.box[j]).max(axis=1)
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
     kind = np.where((lower > tolerance) & (not a.lathe), LOWER, HIGHER)
-    told: dict[int, list[Any]] = {}
+    told: dict[int, tuple[float, tuple[str, str]]] = {}
     bent = (beside > tolerance) | (a.turns[i] > 1) | (b.turns[j] > 1)
     goes = (kind == HIGHER) & (a.lathe | (bent & np.isfinite(b.low[j])))
     least = a.least(around) if goes.any() else np.empty(0)
     for k in np.flatnonzero(goes)[:MOST].tolist():
-        kind[k], *told[k] = _elsewhere(a, int(i[k]), b, int(j[k]), tolerance, around, least)
+        kind[k], told[k] = _elsewhere(a, int(i[k]), b, int(j[k]), tolerance, around, least)
     kind[np.flatnonzero(goes)[MOST:]] = ASIDE
     new = (np.diff(i) != 1) | (np.diff(j) != 1) | (kind[1:] != kind[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
     first = np.flatnonzero(np.append(True, new))
@@ -84,7 +81,7 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
 
 def _elsewhere(
     a: Ways, i: int, b: Ways, j: int, tolerance: float, around: Around, least: Array
-) -> tuple[int, float, tuple[str, ...]]:  # fmt: skip
+) -> tuple[int, tuple[float, tuple[str, str]]]:  # fmt: skip
     """What the way before cut j of b is beside that before cut i of a, by how much, and in words where it comes nearer.
 
     What stands on the machine is known of what the setup names alone. Where that is nothing, b must be higher than a was. `least`
@@ -92,15 +89,14 @@ def _elsewhere(
     """
     places, aside = b.off(j, a, i, tolerance)
     if not len(places):
-        return HIGHER, 0.0, ("", "")
+        return HIGHER, (0.0, ("", ""))
     far = around.far(places, b.radius(j))
     if (near := np.flatnonzero(far < least - tolerance)).size:
         body = int(near[(least - far)[near].argmax()])
-        said = (f"{figure(float(each[body]), 3)} mm from {around.names[body]}" for each in (least, far))
-        return NEARER, float((least - far)[body]), tuple(said)
-    if around.fixtures or (not a.lathe and places[:, 2].min() > a.over(i) + tolerance):
-        return HIGHER, aside, ("", "")
-    return ASIDE, aside, ("", "")
+        before, now = (f"{figure(float(each[body]), 3)} mm from {around.names[body]}" for each in (least, far))
+        return NEARER, (float((least - far)[body]), (before, now))
+    higher = around.fixtures or (not a.lathe and places[:, 2].min() > a.over(i) + tolerance)
+    return HIGHER if higher else ASIDE, (aside, ("", ""))
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,10 +148,11 @@ class Ways:
     def __init__(self, motion: Motion, tolerance: float) -> None:
         self.motion, self.lathe = motion, motion.path.lathe
         self.rapids = np.flatnonzero(motion.kind == Kind.RAPID)
+        self.end = end = motion.end[self.rapids]
         link, n = motion.link[self.rapids], len(motion.cuts) + 1
         self.count = np.bincount(link, minlength=n)
         self.begin = np.cumsum(self.count) - self.count
-        start, end = motion.start[self.rapids], motion.end[self.rapids]
+        start = motion.start[self.rapids]
         if len(self.rapids) and self.rapids[0] == 0:  # from where the machine stands
             start[0] = end[0]
         self.aside = aside = np.hypot(*(end - start)[:, :2].T) > tolerance
@@ -172,22 +169,24 @@ class Ways:
             low, high = (ufunc.reduceat(end[:, :2], self.begin[some]) for ufunc in (np.minimum, np.maximum))
             self.box[some] = np.hstack([low, high])
 
-    def in_own_hole(self, links: Index, tolerance: float) -> Mask:
-        """Which of the rapids before cuts end straight down in a hole that the same tool has cut as deep: pecks go on there."""
-        if not len(links):
-            return np.zeros(0, dtype=bool)
-        last = self.rapids[self.begin[links] + np.maximum(self.count[links], 1) - 1]
-        ends, cuts, tool = self.motion.end[last], self.motion.end[self.motion.cuts], self.motion.tool
-        _, place = np.unique(np.round(np.vstack([ends, cuts])[:, :2] / (2 * tolerance)), axis=0, return_inverse=True)
-        place = place.reshape(-1)
-        of, order = place[: len(ends)], np.argsort(place[len(ends) :], kind="stable")
-        known = place[len(ends) :][order]
-        found = np.zeros(len(links), dtype=bool)
-        for k, (begin, stop) in enumerate(zip(np.searchsorted(known, of), np.searchsorted(known, of, "right"))):
+    def in_own_hole(self, links: Index, deep: Mask, tolerance: float) -> Index:
+        """Which of the rapids before cuts that are `deep` end straight down in a hole that the same tool has cut as deep: pecks
+        go on there; as places in `links`."""
+        last = self.begin[links] + self.count[links] - 1
+        some = np.flatnonzero(deep & (self.count[links] > 0))
+        some = some[~self.aside[last[some]]]
+        if not len(some):
+            return some
+        cuts, tool = self.motion.end[self.motion.cuts], self.motion.tool
+        places = np.round(np.vstack([self.end[last[some]], cuts])[:, :2] / (2 * tolerance))
+        place = np.unique(places, axis=0, return_inverse=True)[1].reshape(-1)
+        of, order = place[: len(some)], np.argsort(place[len(some) :], kind="stable")
+        known, found = place[len(some) :][order], list[int]()
+        for k, begin, stop in zip(some.tolist(), np.searchsorted(known, of), np.searchsorted(known, of, "right")):
             here = order[begin:stop]  # cuts that end at this place
-            here = here[(here < links[k]) & (tool[self.motion.cuts[here]] == tool[last[k]])]
-            found[k] = bool((cuts[here, 2] <= ends[k, 2] + tolerance).any())
-        return found & (self.count[links] > 0) & ~self.aside[self.begin[links] + np.maximum(self.count[links], 1) - 1]
+            here = here[(here < links[k]) & (tool[self.motion.cuts[here]] == tool[self.rapids[last[k]]])]
+            found += [k] * bool((cuts[here, 2] <= self.end[last[k], 2] + tolerance).any())
+        return np.array(found, dtype=np.int64)
 
     def of(self, link: int) -> slice:
         """The rapids before a cut, by their ranks."""
@@ -207,25 +206,23 @@ class Ways:
         over, and how far they are beside."""
         here, near = self.of(link), other.of(there)
         some = np.arange(here.start, here.stop)[self.aside[here] | self.lathe]
-        seen = [0, 2] if self.lathe else [0, 1]
-        places = (self.start[some] + SHARES * (self.motion.end[self.rapids[some]] - self.start[some])).reshape(-1, 3)
+        seen = np.array([1.0, 0.0, 1.0] if self.lathe else [1.0, 1.0, 0.0])
+        places = (self.start[some] + SHARES * (self.end[some] - self.start[some])).reshape(-1, 3)
         if not other.count[there]:
             return places, float("nan")
-        begin, end = other.start[near][:, seen], other.motion.end[other.rapids[near]][:, seen]
-        way, gone = end - begin, places[:, None, seen] - begin
-        share = ((gone * way).sum(axis=2) / np.maximum((way * way).sum(axis=1), 1e-12)).clip(0.0, 1.0)
-        beside = np.linalg.norm(gone - share[:, :, None] * way, axis=2).min(axis=1)
+        close = nearest_of(places * seen, other.start[near] * seen, other.end[near] * seen)
+        beside = np.linalg.norm(places * seen - close, axis=1)
         return places[beside > tolerance], float(beside.max(initial=0.0))
 
     def least(self, around: Around) -> Array:
         """How near (k,) any rapid comes to what stands on the machine."""
         shares = np.linspace(0.0, 1.0, min(max(PLACES // max(len(self.rapids), 1), 2), len(SHARES)))[:, None, None]
-        places = (self.start + shares * (self.motion.end[self.rapids] - self.start)).reshape(-1, 3)
+        places = (self.start + shares * (self.end - self.start)).reshape(-1, 3)
         return around.far(places, np.tile(self.motion.radius[self.rapids], len(shares)))
 
     def lowest(self, link: int) -> int:
         """Which of the rapids before a cut goes sideways the lowest, by its rank."""
-        here = slice(self.begin[link], self.begin[link] + self.count[link])
+        here = self.of(link)
         return int(np.where(self.aside[here], self.heights[here], np.inf).argmin()) if self.count[link] else 0
 
     def said(self, link: int) -> str:
@@ -237,28 +234,24 @@ class Ways:
 
     def route(self, link: int, rank: int) -> str:
         """Where they go from one of them on."""
-        here = self.of(link)
-        ends = self.motion.end[self.rapids[here]][rank:]
+        ends = self.end[self.of(link)][rank:]
         said = ", ".join(point(end, lathe=self.lathe) for end in ends[:3]) + ", …" * (len(ends) > 3)
         return f"by {said}" if said else "straight to the cut"
 
     def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
         """How many of the rapids before a cut are those before another cut of the other."""
         many = min(self.count[link], other.count[there])
-        ends = [ways.motion.end[ways.rapids[ways.begin[k] : ways.begin[k] + many]] for ways, k in ((self, link), (other, there))]
-        odd = np.flatnonzero(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance)
-        return int(odd[0]) if len(odd) else int(many)
+        ends = [ways.end[ways.of(k)][:many] for ways, k in ((self, link), (other, there))]
+        return int(np.append(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance, True).argmax())
 
     def row(self, link: int, rank: int = 0) -> int:
         """The row of the rapids before a cut by their rank, that of the cut where there are no more."""
-        if rank < self.count[link]:
-            return int(self.motion.row[self.rapids[self.begin[link] + rank]])
-        if not len(self.motion.cuts):
-            return -1
-        return int(self.motion.row[self.motion.cuts[min(link, len(self.motion.cuts) - 1)]])
+        cuts = self.motion.cuts[min(link, len(self.motion.cuts) - 1) :]
+        moves = np.append(self.rapids[self.of(link)][rank:], cuts[:1])
+        return int(self.motion.row[moves[0]]) if len(moves) else -1
 
 
-def of_dwells(one: Motion, other: Motion, i: Index, j: Index, parts: list[tuple[int, int, int, int]]) -> list[Found]:
+def of_dwells(one: Motion, other: Motion, i: Index, j: Index, parts: list[Stretch]) -> list[Found]:
     """Dwells and stops of the program between cuts, at the end of a cut and elsewhere; `parts` are stretches that are one way."""
     found = []
     for at_cut in (True, False):

@@ -149,21 +149,21 @@ class Expression:
         values: list[float] = []
         for token in self.steps:
             if token.kind == "number":
-                values.append(_finite(float(token.text), token))
+                values.append(finite(float(token.text), token))
             elif token.kind == "variable":
                 try:
                     values.append(float(variables[token.text]))
                 except KeyError:
-                    _refuse("no value was given to", token)
+                    refuse("no value was given to", token)
             elif token.kind == "sign":
                 values[-1] = -values[-1]
             elif token.text in LEVELS:
                 right = values.pop()
-                values[-1] = _finite(_joined(values[-1], token, right), token)
+                values[-1] = finite(_joined(values[-1], token, right), token)
             elif token.text == "PI":
                 values.append(math.pi)
             else:
-                values[-1] = _finite(_function(token, values[-1]), token)
+                values[-1] = finite(_function(token, values[-1]), token)
         return self.scale * values[0]
 
 
@@ -174,21 +174,23 @@ def parse(text: str, span: Span, further: Sequence[tuple[str, Span]] = ()) -> Ex
     for part, place in ((text, span), *further):
         tokens += split(part, _TOKEN, KINDS, place, "an expression", lambda part: part.upper().replace(",", "."))
     text = " ".join((text.strip(), *(part.strip() for part, _ in further)))
-    reader = _Reader(tokens)
-    reader.climb()
-    if reader.at < len(tokens):
-        _refuse("an operator was expected before", tokens[reader.at])
-    return Expression(tuple(tokens), text.strip(), steps=tuple(reader.steps))
+    return Expression(tuple(tokens), text.strip(), steps=_Reader(tokens).ordered())
 
 
-class _Reader(Climber[None]):
+class Orderer(Climber[None]):
     """Puts the tokens into the order in which they are worked out."""
 
-    levels, deepest = LEVELS, 100
+    deepest = 100
 
     def __init__(self, tokens: list[Token]) -> None:
         super().__init__(tokens)
         self.steps: list[Token] = []
+
+    def ordered(self) -> tuple[Token, ...]:
+        self.climb()
+        if self.at < len(self.tokens):
+            refuse("an operator was expected before", self.tokens[self.at])
+        return tuple(self.steps)
 
     def take(self) -> Token:
         if self.at >= len(self.tokens):
@@ -197,6 +199,20 @@ class _Reader(Climber[None]):
         self.at += 1
         return self.tokens[self.at - 1]
 
+    def join(self, mark: str, left: None, first: int) -> None:
+        operator = self.tokens[self.at - 1]
+        self.right(mark)
+        self.steps.append(operator)
+
+    def too_deep(self) -> None:
+        refuse(f"the expression is nested deeper than {self.deepest} at", self.tokens[self.at - 1])
+
+
+class _Reader(Orderer):
+    """That of this notation."""
+
+    levels = LEVELS
+
     def operand(self, level: int) -> None:
         token = self.take()
         self.deeper()
@@ -204,7 +220,7 @@ class _Reader(Climber[None]):
             self.climb()
             closing = self.take()
             if closing.text != ")":
-                _refuse("')' was expected before", closing)
+                refuse("')' was expected before", closing)
         elif token.text in ("+", "-"):
             self.climb(POWER)  # -2^2 is -(2^2)
             if token.text == "-":
@@ -215,16 +231,8 @@ class _Reader(Climber[None]):
             self.operand(POWER)  # the next part only
             self.steps.append(token)
         else:
-            _refuse("a number or a variable was expected, found", token)
+            refuse("a number or a variable was expected, found", token)
         self.depth -= 1
-
-    def join(self, mark: str, left: None, first: int) -> None:
-        operator = self.tokens[self.at - 1]
-        self.right(mark)
-        self.steps.append(operator)
-
-    def too_deep(self) -> None:
-        _refuse(f"the expression is nested deeper than {self.deepest} at", self.tokens[self.at - 1])
 
 
 def _joined(left: float, operator: Token, right: float) -> float:
@@ -240,9 +248,9 @@ def _joined(left: float, operator: Token, right: float) -> float:
             try:
                 return float(left**right)
             except (ZeroDivisionError, OverflowError, TypeError):
-                _refuse("no real power at", operator)
+                refuse("no real power at", operator)
     if right == 0:
-        _refuse("division by zero at", operator)
+        refuse("division by zero at", operator)
     return math.fmod(left, right) if operator.text == "%" else left / right
 
 
@@ -253,11 +261,13 @@ def _function(name: Token, argument: float) -> float:
         raise Alarm(f"{name.text} of {argument:g} has no real value", name.span) from None
 
 
-def _finite(value: float, token: Token) -> float:
+def finite(value: float, token: Token) -> float:
+    """A result, which an Alarm refuses where it is none."""
     if not math.isfinite(value):
-        _refuse("the result is out of range at", token)
-    return value
+        refuse("the result is out of range at", token)
+    return float(value)
 
 
-def _refuse(what: str, token: Token) -> NoReturn:
+def refuse(what: str, token: Token) -> NoReturn:
+    """Raise the Alarm at a token."""
     raise Alarm(f"{what} {token.text}", token.span)

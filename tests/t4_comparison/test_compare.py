@@ -7,8 +7,7 @@ import pytest
 from tools.together import deep_but_one_in
 
 from mnclab import Alarm, Limits, Tool
-from mnclab.comparison.chips import _at_level
-from mnclab.comparison.levels import level_moves
+from mnclab.comparison.levels import _at_level, level_moves
 from mnclab.comparison.strategies import COLUMNS, compare
 from mnclab.comparison.turning_schemes import compare as compare_turning
 from mnclab.geometry.contours import Contour, rectangle

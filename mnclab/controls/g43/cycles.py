@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 
@@ -27,7 +29,6 @@ from mnclab.machine.machine import Machine
 from mnclab.machining.holes import back_bore, back_to_axis, bore_and_stop, drill, ream, tap
 from mnclab.machining.steps import RAPID, Each, Go, Step, moved
 
-CYCLES = CycleTable()
 MOST_HOLES = 9999  # of one block
 SAME = 1e-9  # mm, between two levels that are one
 
@@ -35,22 +36,23 @@ POSITION = "X Y Z R"
 LENGTHS = ("bottom", "r_level", "peck", "tapping_peck")  # data that hold, of which other units make other lengths
 
 dwell = partial(param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500)
-repeats = partial(
-    param, ("K", "L"), "number of holes", "", default=1, type="integer", at_least=0, at_most=MOST_HOLES, example=1
-)
-peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True, example=5)
-pause = partial(
-    param, "P", "dwell at the bottom, milliseconds", "ms", default=0, at_least=0, modal=True, example=500,
-    note="of Haas; other makers' G73 and G83 have no dwell",
-)  # fmt: skip
-tapping_peck = partial(
-    param, "Q", "depth of one peck", default=None, default_means="the whole thread at once", above=0, incremental=True,
-    modal=True, note="rigid tapping; what happens between two: setting peck_tapping",
-)  # fmt: skip
-times_out = partial(
-    param, "J", "how many times faster the tap comes out", "", default=1, above=0, at_most=9, modal=True, example=1,
-    note="of Haas",
-)  # fmt: skip
+peck = partial(param, "Q", "depth of one peck", above=0, incremental=True, modal=True)
+CYCLES = CycleTable(addresses=SimpleNamespace(
+    x=holes.x, y=holes.y, bottom=holes.bottom, r_level=holes.r_level, feed=holes.feed, dwell=dwell, peck=partial(peck, example=5),
+    pause=partial(dwell, note="of Haas; other makers' G73 and G83 have no dwell"),
+    repeats=partial(
+        param, ("K", "L"), "number of holes", "", default=1, type="integer", at_least=0, at_most=MOST_HOLES, example=1
+    ),
+    tapping_peck=partial(
+        peck, default=None, default_means="the whole thread at once",
+        note="rigid tapping; what happens between two: setting peck_tapping",
+    ),
+    times_out=partial(
+        param, "J", "how many times faster the tap comes out", "", default=1, above=0, at_most=9, modal=True,
+        note="of Haas", example=1,
+    ),
+), runs="position")  # fmt: skip
+HOLE, ENDS = "x y bottom r_level", "dwell feed repeats"
 
 
 def along_z(m: Machine, code: str, given: Given) -> None:
@@ -134,6 +136,9 @@ class HoleCycle(holes.AtHole, Cycle):
     shares = True
     dwell: float = 0.0
     repeats: float = 1
+    pause: float
+    times_out: float
+    hand: ClassVar[int] = 0  # of the thread that it taps: 1 right, -1 left
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -207,67 +212,34 @@ class HoleCycle(holes.AtHole, Cycle):
         return self.dwell / 1000
 
 
-@CYCLES("G81", "Drilling", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G81", "Drilling", source=ISO, triggers=POSITION, takes=f"{HOLE} feed repeats")
 class Drilling(HoleCycle):
     """Drills in one pass."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=0)
 
 
-@CYCLES("G82", "Counterboring", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G82", "Counterboring", source=ISO, triggers=POSITION, takes=f"{HOLE} {ENDS}")
 class Counterboring(HoleCycle):
     """Drills in one pass and waits at the bottom."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=0, dwell_bottom=self.seconds)
 
 
-@CYCLES("G83", "Deep-hole drilling", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G83", "Deep-hole drilling", source=ISO, triggers=POSITION, takes=f"{HOLE} peck pause feed repeats")
 class DeepHoleDrilling(HoleCycle):
     """Drills in pecks with withdrawal to level R."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    peck: float = peck()
-    pause: float = pause()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return drill(self.levels(), above=self.r_level, feed=None, reenter=m.settings["peck_clearance"],
                      dwell_bottom=self.pause / 1000)  # fmt: skip
 
 
-@CYCLES("G73", "Drilling with chip breaking", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G73", "Drilling with chip breaking", source=ISO, triggers=POSITION, takes=f"{HOLE} peck pause feed repeats")
 class ChipBreaking(HoleCycle):
     """Drills in pecks and lifts a little between them."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    peck: float = peck()
-    pause: float = pause()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         levels, back = self.levels(), m.settings["peck_clearance"]
@@ -285,54 +257,30 @@ def turns(sense: int) -> Callable[[Machine], Iterator[tuple[str, str]]]:
     return fault
 
 
-@CYCLES("G84", "Tapping, right-hand", runs="position", source=ISO, triggers=POSITION)
-class RightTapping(HoleCycle):
-    """Taps a right-hand thread; the pitch is the feed per revolution, or F over S."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    tapping_peck: float | None = tapping_peck()
-    dwell: float = dwell()
-    times_out: float = times_out()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.no_pitch, turns(1))
-    pecks = "tapping_peck"
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return thread(m, self, sense=1)
-
-
-@CYCLES("G74", "Tapping, left-hand", runs="position", source=ISO, triggers=POSITION)
-class LeftTapping(HoleCycle):
-    """Taps a left-hand thread; the pitch is the feed per revolution, or F over S."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    tapping_peck: float | None = tapping_peck()
-    dwell: float = dwell()
-    times_out: float = times_out()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
-    needs = (holes.no_pitch, turns(-1))
-    pecks = "tapping_peck"
-
-    def work(self, m: Machine) -> Iterator[Step]:
-        return thread(m, self, sense=-1)
-
-
-def thread(m: Machine, cycle: RightTapping | LeftTapping, sense: int) -> Iterator[Step]:
+def thread(cycle: HoleCycle, m: Machine) -> Iterator[Step]:
     """Cut with the spindle turning one way, back with the other."""
-    pitch, speed = m.feed_of(None) / m.speed, m.speed
+    pitch, speed, sense = m.feed_of(None) / m.speed, m.speed, cycle.hand
     back = m.settings["peck_clearance"] if m.settings["peck_tapping"] == "lifts" else 0.0
     return tap(
         cycle.levels(), above=cycle.r_level, pitch=pitch, sense=sense, end=sense, dwell=cycle.seconds, back=back,
         speed=speed, out_speed=cycle.times_out * speed,
     )  # fmt: skip
+
+
+@CYCLES("G84", "Tapping, right-hand", source=ISO, triggers=POSITION, takes=f"{HOLE} tapping_peck dwell times_out feed repeats")
+class RightTapping(HoleCycle):
+    """Taps a right-hand thread; the pitch is the feed per revolution, or F over S."""
+
+    hand, pecks, work = 1, "tapping_peck", thread
+    needs = (holes.no_pitch, turns(hand))
+
+
+@CYCLES("G74", "Tapping, left-hand", source=ISO, triggers=POSITION, takes=f"{HOLE} tapping_peck dwell times_out feed repeats")
+class LeftTapping(HoleCycle):
+    """Taps a left-hand thread; the pitch is the feed per revolution, or F over S."""
+
+    hand, pecks, work = -1, "tapping_peck", thread
+    needs = (holes.no_pitch, turns(hand))
 
 
 # Boring cycles: G76 and G85 to G89, in and out at feed or with the spindle at rest.
@@ -355,32 +303,17 @@ def shift_scaled(m: Machine) -> Iterator[tuple[str, str]]:
         yield "", "cannot run under G51: whether the shift is scaled is a matter of the maker"
 
 
-@CYCLES("G85", "Boring, feed out", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G85", "Boring, feed out", source=ISO, triggers=POSITION, takes=f"{HOLE} feed repeats")
 class Reaming(HoleCycle):
     """In and out at feed."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return ream(self.bottom, above=self.r_level, feed=None, retract=None)
 
 
-@CYCLES("G89", "Boring, dwell, feed out", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G89", "Boring, dwell, feed out", source=ISO, triggers=POSITION, takes=f"{HOLE} {ENDS}")
 class DwellReaming(HoleCycle):
     """In at feed, a dwell, out at feed."""
-
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.seconds)
@@ -392,40 +325,26 @@ class DwellReaming(HoleCycle):
             yield step._replace(feed=up) if isinstance(step, Go) and step.label == "to the initial level" else step
 
 
-@CYCLES("G86", "Boring, spindle stop, rapid out", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G86", "Boring, spindle stop, rapid out", source=ISO, triggers=POSITION, takes=f"{HOLE} {ENDS}")
 class StoppedBoring(HoleCycle):
     """In at feed, spindle stop, out at rapid."""
 
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
     needs = (holes.spindle_stands,)
 
     def work(self, m: Machine) -> Iterator[Step]:
         return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning)
 
 
-@CYCLES("G76", "Fine boring", runs="position", source=ISO, triggers=POSITION)
+@CYCLES("G76", "Fine boring", source=ISO, triggers=POSITION, takes=f"{HOLE} shift shift_x shift_y {ENDS}")
 class FineBoring(HoleCycle):
     """In at feed, oriented spindle stop, away from the wall by Q along -X or by I and J, out at rapid, back to the axis."""
 
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
     shift: float | None = param(
         "Q", "shift off the wall", default=None, default_means="by I and J", above=0, incremental=True, modal=True,
         example=0.2,
     )  # fmt: skip
     shift_x: float = param("I", "shift along X", default=0, modal=True, note="of Haas, without Q")
     shift_y: float = param("J", "shift along Y", default=0, modal=True, note="of Haas, without Q")
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
     needs = (holes.spindle_stands, shift_scaled)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
@@ -441,21 +360,16 @@ class FineBoring(HoleCycle):
         return bore_and_stop(self.bottom, above=self.r_level, dwell=self.seconds, turning=m.turning, shift=shift)
 
 
-@CYCLES("G87", "Back boring", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
+@CYCLES("G87", "Back boring", source=f"{ISO}; FANUC", triggers=POSITION, takes=f"{HOLE} shift {ENDS}")
 class BackBoring(HoleCycle):
     """Off the axis by Q along -X with the spindle oriented, at rapid through the hole to level R, on the axis again up to Z.
 
     R lies below Z. The tool always comes back to the initial level, the way it came.
     """
 
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
     bottom: float = param("Z", "depth of the counterbore from below", modal=True, example=-10)
     r_level: float = param("R", "level R, below the workpiece", modal=True, example=-25)
     shift: float = param("Q", "shift off the axis", above=0, incremental=True, modal=True, example=0.2)
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
     needs = (holes.spindle_stands, not_of_linuxcnc, initial_level_alone, shift_scaled)
 
     def contradictions(self) -> Iterator[tuple[str, str]]:
@@ -475,17 +389,10 @@ class BackBoring(HoleCycle):
         yield from back_to_axis(above, turning)
 
 
-@CYCLES("G88", "Boring, spindle stop, out by hand", runs="position", source=f"{ISO}; FANUC", triggers=POSITION)
+@CYCLES("G88", "Boring, spindle stop, out by hand", source=f"{ISO}; FANUC", triggers=POSITION, takes=f"{HOLE} {ENDS}")
 class HandBoring(HoleCycle):
     """In at feed, spindle stop, program stop: the operator draws the tool out, and the program goes on above the hole."""
 
-    x: float | None = holes.position("X", 20)
-    y: float | None = holes.position("Y", 10)
-    bottom: float = holes.bottom()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
-    repeats: float = repeats()
     needs = (holes.spindle_stands, not_of_linuxcnc)
 
     def work(self, m: Machine) -> Iterator[Step]:

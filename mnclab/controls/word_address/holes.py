@@ -28,6 +28,7 @@ def position(axis: str, example: float) -> Any:
     )  # fmt: skip
 
 
+x, y = partial(position, "X", 20), partial(position, "Y", 10)
 bottom = partial(param, "Z", "bottom of the hole", modal=True, note="under G91 from level R, signed", example=-20)
 r_level = partial(param, "R", "level R", modal=True, note="under G91 from the initial level, signed", example=2)
 feed = partial(

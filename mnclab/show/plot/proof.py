@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.lines import Line2D
 
 from mnclab.path.toolpath import Kind
 from mnclab.show import looks
 from mnclab.show.plot.colours import RAPID, Mark
-from mnclab.show.plot.picture import SIZE, VIEWS, Foot, Picture, arrange, write_legend
-from mnclab.show.plot.side_by_side import CUTTING, FIRST, FIRST_RAPID, SECOND
+from mnclab.show.plot.picture import SIZE, VIEWS, Picture
+from mnclab.show.plot.side_by_side import CUTTING, FIRST, FIRST_RAPID, SECOND, laid_over
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.strokes import line_of
 from mnclab.text.alarm import Alarm
@@ -47,17 +46,6 @@ def plot_proof(found: Any, number: int | None = None, view: str = "auto", size: 
     views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
     named = (mark._replace(name=f"end of it in {name}") for mark, name in zip((HERE, THERE), found.names))
     marks = [(mark, place) for mark, place in zip(named, places) if place is not None]
-    names = [line.name for line, _ in lines if not line.name.startswith("_")] + [mark.name for mark, _ in marks]
-    picture, axes = arrange(views, low, high, names, Foot(one.sentence), one.sentence, size)
-    artists: list[Line2D] = []
-    for ax, each in zip(axes, views):
-        drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]
-        drawn += [Line2D([place[each.right]], [place[each.up]], **mark.style()) for mark, place in marks]
-        if len(marks) == 2 and one.kind in ("geometry", "depth", "side"):  # of rapids it would look like one
-            ends = np.stack([place for _, place in marks])[:, [each.right, each.up]]
-            ax.add_line(Line2D(*ends.T, color=looks.WRONG, linewidth=1.2, zorder=THERE.order))
-        for artist in drawn:
-            ax.add_line(artist)
-        artists = artists or [each for each in drawn if not str(each.get_label()).startswith("_")]
-    write_legend(picture, artists)
-    return picture
+    joined = len(marks) == 2 and one.kind in ("geometry", "depth", "side")  # of rapids it would look like one
+    gap = [place for _, place in marks] if joined else []
+    return laid_over(lines, marks, gap, views, low, high, one.sentence, one.sentence, size)

@@ -306,17 +306,25 @@ def plot_deviation(found: Any, view: str = "auto", size: tuple[float, float] = S
     views = [each._replace(unit=found.unit) for each in (views if view == "auto" else [VIEWS[view]])]
     unseen = beyond.any() and any(goes_out(path, low, high, views) for path in found.paths)
     said = f"{found.sentence}\nrapids between cuts go farther" if unseen else found.sentence
-    names = [line.name for line, _ in lines if not line.name.startswith("_")] + ([APART.name] if where else [])
-    picture, axes = arrange(views, low, high, names, Foot(said), f"two paths: {found.sentence}", size)
-    artists: list[Line2D] = []
+    marks = [(APART, where[0])] if where else []
+    return laid_over(lines, marks, where[:2] if where else (), views, low, high, said, f"two paths: {found.sentence}", size)
+
+
+def laid_over(
+    lines: Sequence[tuple[LineStyle, Array]], marks: Sequence[tuple[Mark, Array]], gap: Sequence[Array], views: Sequence[View],
+    low: Array, high: Array, said: str, alt: str, size: tuple[float, float],
+) -> Picture:  # fmt: skip
+    """Lines (n, 3) over one another in some views, with marks, and a line from end to end of the gap between two of them."""
+    styles: list[LineStyle | Mark] = [*(look for look, _ in lines), *(mark for mark, _ in marks)]
+    named = [look.name for look in styles if not look.name.startswith("_")]
+    picture, axes = arrange(views, low, high, named, Foot(said), alt, size)
     for ax, each in zip(axes, views):
-        drawn = [Line2D(xyz[:, each.right], xyz[:, each.up], **line.style()) for line, xyz in lines]
-        if where:
-            ends = np.stack(where[:2])[:, [each.right, each.up]]
-            drawn.append(Line2D(*ends[:1].T, **APART.style()))
+        if gap:
+            ends = np.stack(gap)[:, [each.right, each.up]]
             ax.add_line(Line2D(*ends.T, color=APART.colour, linewidth=1.2, zorder=APART.order))
+        drawn = [Line2D(xyz[..., each.right], xyz[..., each.up], **look.style()) for look, xyz in lines]
+        drawn += [Line2D([place[each.right]], [place[each.up]], **mark.style()) for mark, place in marks]
         for artist in drawn:
             ax.add_line(artist)
-        artists = artists or [each for each in drawn if not str(each.get_label()).startswith("_")]
-    write_legend(picture, artists)
+    write_legend(picture, [each for each in drawn if not str(each.get_label()).startswith("_")])
     return picture

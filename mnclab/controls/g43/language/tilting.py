@@ -93,7 +93,7 @@ def by_angles(m: Machine, words: Words, way: int) -> Matrix:
     """The turn of P0, P1 or P4."""
     i, j, k = map(math.radians, numbers(m, words, CENTRE))
     if way == 0:  # Euler: about Z, the new X, the new Z
-        return frames.turn(i, "z") @ frames.turn(j, "x") @ frames.turn(k, "z")
+        return frames.euler(i, j, k)
     if way == 1:
         if "Q" not in words:
             m.alarm(f"{words.code} P1 Q (order of the rotations) is missing", first_word(words), hint="Q123 is X, then Y, then Z")
@@ -101,7 +101,7 @@ def by_angles(m: Machine, words: Words, way: int) -> Matrix:
     if abs(math.cos(i)) < FLAT or abs(math.cos(j)) < FLAT:
         m.alarm(f"{words.code} P4 I and J (angles of the plane) must not be a quarter turn", first_word(words))
     # In the plane lie a line over X that falls by I about Y, and one over Y that rises by J about X; X' is the first one.
-    return basis([math.cos(i), 0.0, -math.sin(i)], [0.0, math.cos(j), math.sin(j)]) @ frames.turn(k, "z")
+    return frames.projected(i, j, k)
 
 
 def in_order(m: Machine, words: Words, usual: str) -> Matrix:
@@ -156,20 +156,9 @@ def by_blocks(m: Machine, words: Words, way: int) -> Matrix | None:
 
 def checked(m: Machine, words: Words, along: np.ndarray, beside: np.ndarray) -> Matrix:
     """The basis of two directions; an Alarm where they give none."""
-    size = np.linalg.norm(along) * np.linalg.norm(beside)
-    if size < FLAT or np.linalg.norm(np.cross(along, beside)) < FLAT * size:
+    if not frames.spans(along, beside):
         m.alarm(f"{words.code} describes no plane: its points or directions lie on one line", first_word(words))
-    return basis(along, beside)
-
-
-def basis(along: Iterable[float], beside: Iterable[float]) -> Matrix:
-    """The turned system whose X lies along a direction and whose XY plane holds another."""
-    x = np.array([*along]) / np.linalg.norm([*along])
-    z = np.cross(x, [*beside])
-    z /= np.linalg.norm(z)
-    found = np.eye(4)
-    found[:3, :3] = np.column_stack([x, np.cross(z, x), z])
-    return found
+    return frames.along_and_normal(along, np.cross(along, beside))
 
 
 @FUNCTIONS("G68.3", "Tilted working plane square to the tool", group="rotation", phase="transformation", takes="X Y Z R",
@@ -190,7 +179,7 @@ def square_to_tool(m: Machine, words: Words) -> None:
     z = np.linalg.solve(outside, axes.direction(m))
     z /= np.linalg.norm(z)
     x = np.cross([0.0, 0.0, 1.0], z)
-    turned = basis(x, np.cross(z, x)) if np.linalg.norm(x) > FLAT else np.eye(4)
+    turned = frames.along_and_normal(x, z) if np.linalg.norm(x) > FLAT else np.eye(4)
     within = frames.turn(math.radians(m.value(words["R"])) if "R" in words else 0.0, "z")
     set_plane(m, frames.shift(*origin) @ turned @ within, words)
 

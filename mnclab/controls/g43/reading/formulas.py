@@ -12,10 +12,10 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any
 
 from mnclab.text.alarm import Alarm, Span
-from mnclab.text.expression import Climber, Expression, Token, split
+from mnclab.text.expression import Expression, Orderer, Token, finite, refuse, split
 
 _TOKEN = re.compile(
     r"\s*(?:(\d+(?:\.\d*)?|\.\d+)|(#[ \t]*(?:\d{1,9}|<[^<>\[\]#]{0,80}>)?)"
@@ -143,7 +143,7 @@ class Formula(Expression):
         dialect = dialect or variables.get("macros", FANUC)
         for token in order:
             if token.kind == "number":
-                values.append(_finite(float(token.text), token))
+                values.append(finite(float(token.text), token))
             elif token.kind == "variable":
                 if not token.text:
                     token = token._replace(text=f"#{_index(values.pop() or 0.0, token)}")
@@ -158,7 +158,7 @@ class Formula(Expression):
                 right = values.pop()
                 values[-1] = _joined(values[-1], token, right, dialect)
             else:
-                values[-1] = _finite(_function(token, _plain(values[-1]), dialect, unit), token)
+                values[-1] = finite(_function(token, _plain(values[-1]), dialect, unit), token)
         return values
 
 
@@ -166,7 +166,7 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
     """The value of a variable, None if it is vacant."""
     name = token.text
     if name == "#0" and dialect == LINUXCNC:
-        _refuse("LinuxCNC has no variable", token)
+        refuse("LinuxCNC has no variable", token)
     known = variables.get(name)
     if known is None and (name.startswith("#<_") or name[1:2] != "<" and int(name[1:]) > ORDINARY):
         try:
@@ -175,7 +175,7 @@ def fetch(variables: Mapping[str, Any], token: Token, dialect: str) -> float | N
             if name[1] != "<" and (dialect != LINUXCNC or int(name[1:]) > MOST_OF_LINUXCNC):
                 raise Alarm(f"{name} is a variable of the control that is not built, or has no value", token.span) from None
     if known is None and name[1:2] == "<":
-        _refuse("no value was given to", token)
+        refuse("no value was given to", token)
     return 0.0 if known is None and dialect == LINUXCNC else None if known is None else float(known)
 
 
@@ -215,41 +215,27 @@ def _unclear(tokens: list[Token]) -> Token | None:
 
 
 def _ordered(tokens: list[Token], levels: Mapping[str, int]) -> tuple[Token, ...]:
-    reader = _Reader(tokens, levels)
-    reader.climb()
-    if reader.at < len(tokens):
-        _refuse("an operator was expected before", tokens[reader.at])
-    return tuple(reader.steps)
+    return _Reader(tokens, levels).ordered()
 
 
-class _Reader(Climber[None]):
-    """Puts the tokens into the order in which they are worked out."""
-
-    deepest = 100
+class _Reader(Orderer):
+    """That of brackets, functions of two numbers and EXISTS."""
 
     def __init__(self, tokens: list[Token], levels: Mapping[str, int]) -> None:
         super().__init__(tokens)
         self.levels = levels  # type: ignore[misc]
-        self.steps: list[Token] = []
-
-    def take(self) -> Token:
-        if self.at >= len(self.tokens):
-            last = self.tokens[-1] if self.tokens else None
-            raise Alarm("the expression ends where a number or a variable was expected", last.span if last else None)
-        self.at += 1
-        return self.tokens[self.at - 1]
 
     def bracketed(self) -> None:
         """What stands between the brackets that come next."""
         opening = self.take()
         if opening.text != "[":
-            _refuse("'[' was expected before", opening)
+            refuse("'[' was expected before", opening)
         self.climb()
 
     def close(self) -> None:
         if self.peek() != "]":
             if self.at < len(self.tokens):
-                _refuse("']' was expected before", self.tokens[self.at])
+                refuse("']' was expected before", self.tokens[self.at])
             raise Alarm("a bracket is not closed: ']' is missing", self.tokens[-1].span)
         self.at += 1
 
@@ -272,7 +258,7 @@ class _Reader(Climber[None]):
         elif token.text in NAMES:
             self.function(token)
         else:
-            _refuse("a number or a variable was expected, found", token)
+            refuse("a number or a variable was expected, found", token)
         self.depth -= 1
 
     def indirect(self, token: Token) -> None:
@@ -311,12 +297,8 @@ class _Reader(Climber[None]):
         self.steps.append(token._replace(kind="pair" if comma else "joint") if two else token)
 
     def join(self, mark: str, left: None, first: int) -> None:
-        operator = self.tokens[self.at - 1]
-        self.right(mark)
-        self.steps.append(operator._replace(kind="joint"))
-
-    def too_deep(self) -> None:
-        _refuse(f"the expression is nested deeper than {self.deepest} at", self.tokens[self.at - 1])
+        super().join(mark, left, first)
+        self.steps[-1] = self.steps[-1]._replace(kind="joint")
 
 
 def _joined(left: float | None, operator: Token, right: float | None, dialect: str) -> float:
@@ -338,19 +320,19 @@ def _joined(left: float | None, operator: Token, right: float | None, dialect: s
         return float(LOGIC[text](_bits(a, operator), _bits(b, operator)))
     if text == "ATAN":
         if a == b == 0 and dialect == FANUC:
-            _refuse("two sides of length 0 have no angle at", operator)
+            refuse("two sides of length 0 have no angle at", operator)
         angle = math.degrees(math.atan2(a, b))
         return angle % 360 if dialect == FANUC else angle
     if text in ("**", "POW"):
         try:
-            return _finite(float(a**b), operator)
+            return finite(float(a**b), operator)
         except (ZeroDivisionError, OverflowError, TypeError):
-            _refuse("no real power at", operator)
+            refuse("no real power at", operator)
     if text in ("/", "MOD") and b == 0:
-        _refuse("division by zero at", operator)
+        refuse("division by zero at", operator)
     if text == "MOD":
         return _remainder(a, b, operator, dialect)
-    return _finite(a + b if text == "+" else a - b if text == "-" else a * b if text == "*" else a / b, operator)
+    return finite(a + b if text == "+" else a - b if text == "-" else a * b if text == "*" else a / b, operator)
 
 
 def _plain(value: float | None) -> float:
@@ -391,13 +373,3 @@ def _index(value: float, token: Token) -> int:
     if abs(value - near) > 1e-6 or not 0 <= near < 1e6:
         raise Alarm(f"the number of a variable must be a whole number from 0, got {value:.10g}", token.span)
     return int(near)
-
-
-def _finite(value: float, token: Token) -> float:
-    if not math.isfinite(value):
-        _refuse("the result is out of range at", token)
-    return float(value)
-
-
-def _refuse(what: str, token: Token) -> NoReturn:
-    raise Alarm(f"{what} {token.text}", token.span)

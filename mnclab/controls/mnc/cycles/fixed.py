@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from types import SimpleNamespace
 from typing import Any, ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
@@ -13,8 +14,6 @@ from mnclab.machine.cycle import Cycle, CycleTable, Given, Values, param
 from mnclab.machine.machine import Machine
 from mnclab.machining.holes import drill, ream, tap
 from mnclab.machining.steps import Step
-
-CYCLES = CycleTable()
 
 POSITION = "X Y U V Z W R"
 PAIRS = (("x", "x_increment"), ("y", "y_increment"), ("bottom", "depth_from_r"))
@@ -26,16 +25,22 @@ def increment(address: str, axis: str, example: float) -> Any:
     return param(address, meaning, default=None, instead=axis.lower(), incremental=True, example=example)
 
 
-depth_from_r = partial(
-    param, "W", "depth below level R", default=None, instead="bottom", above=0, incremental=True, modal=True, example=22
-)  # fmt: skip
-dwell = partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, example=0.5)
+CYCLES = CycleTable(addresses=SimpleNamespace(
+    x=holes.x, x_increment=partial(increment, "U", "X", 15), y=holes.y, y_increment=partial(increment, "V", "Y", 10),
+    bottom=partial(holes.bottom, instead="depth_from_r"), r_level=holes.r_level, feed=holes.feed,
+    depth_from_r=partial(
+        param, "W", "depth below level R", default=None, instead="bottom", above=0, incremental=True, modal=True, example=22
+    ),
+    dwell=partial(param, "P", "dwell at the bottom", "s", default=0, at_least=0, example=0.5),
+), runs="position")  # fmt: skip
+HOLE = "x x_increment y y_increment bottom depth_from_r r_level"
 
 
 class FixedCycle(holes.AtHole, Cycle):
     """A cycle at a hole whose levels may be increments."""
 
     pecks = "peck_depth"
+    dwell: float
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -69,20 +74,11 @@ class FixedCycle(holes.AtHole, Cycle):
         return values
 
 
-@CYCLES("G83", "Deep-hole drilling", runs="position", source="MNC 9.1", triggers=POSITION)
+@CYCLES("G83", "Deep-hole drilling", source="MNC 9.1", triggers=POSITION, takes=f"{HOLE} peck_depth dwell feed")
 class DeepHoleDrilling(FixedCycle):
     """Drills at each position with rapid withdrawal to level R after every peck, until G80."""
 
-    x: float | None = holes.position("X", 20)
-    x_increment: float | None = increment("U", "X", 15)
-    y: float | None = holes.position("Y", 10)
-    y_increment: float | None = increment("V", "Y", 10)
-    bottom: float = holes.bottom(instead="depth_from_r")
-    depth_from_r: float | None = depth_from_r()
-    r_level: float = holes.r_level()
     peck_depth: float | None = addresses.distance("K", "depth of one peck", 5, **addresses.ONE_PASS)
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
 
     @classmethod
     def prepare(cls, values: Values, given: Given, m: Machine, kept: Values) -> Values:
@@ -99,22 +95,12 @@ class DeepHoleDrilling(FixedCycle):
         return drill(self.levels(), above=self.r_level, feed=None, reenter=clearance, dwell_bottom=self.dwell)
 
 
-@CYCLES("G84", "Tapping", runs="position", source="MNC 9.2", triggers=POSITION)
+@CYCLES("G84", "Tapping", source="MNC 9.2", triggers=POSITION, takes=f"{HOLE} dwell feed")
 class Tapping(FixedCycle):
     """Taps at each position with the spindle as it turns, reversed at the bottom and again at level R, until G80."""
 
     does: ClassVar[str] = TAPS
     needs = (holes.no_pitch,)
-
-    x: float | None = holes.position("X", 20)
-    x_increment: float | None = increment("U", "X", 15)
-    y: float | None = holes.position("Y", 10)
-    y_increment: float | None = increment("V", "Y", 10)
-    bottom: float = holes.bottom(instead="depth_from_r")
-    depth_from_r: float | None = depth_from_r()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
 
     def work(self, m: Machine) -> Iterator[Step]:
         """The cycle runs at a feed per revolution; F in mm/min is divided by the speed."""
@@ -122,19 +108,9 @@ class Tapping(FixedCycle):
         return tap([self.bottom], above=self.r_level, pitch=pitch, sense=sense, end=sense, dwell=self.dwell)
 
 
-@CYCLES("G85", "Boring and reaming", runs="position", source="MNC 9.3", triggers=POSITION)
+@CYCLES("G85", "Boring and reaming", source="MNC 9.3", triggers=POSITION, takes=f"{HOLE} dwell feed")
 class Reaming(FixedCycle):
     """Reams or bores at each position, in and out at feed, until G80."""
-
-    x: float | None = holes.position("X", 20)
-    x_increment: float | None = increment("U", "X", 15)
-    y: float | None = holes.position("Y", 10)
-    y_increment: float | None = increment("V", "Y", 10)
-    bottom: float = holes.bottom(instead="depth_from_r")
-    depth_from_r: float | None = depth_from_r()
-    r_level: float = holes.r_level()
-    dwell: float = dwell()
-    feed: float | None = holes.feed()
 
     def work(self, m: Machine) -> Iterator[Step]:
         return ream(self.bottom, above=self.r_level, feed=None, retract=None, dwell=self.dwell)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
+from types import SimpleNamespace
 from typing import ClassVar
 
 from mnclab.controls.mnc.cycles import addresses
@@ -33,7 +34,22 @@ from mnclab.machining.milling.pocket_steps import (
 from mnclab.machining.milling.rest import within
 from mnclab.machining.steps import Go, Say, Step
 
-CYCLES = CycleTable()
+SCOPE: dict[float, str] = {0: "roughing and finishing", 1: "roughing only", 2: "finishing only"}
+MODE: dict[float, str] = {1: "climb, counter-clockwise", -1: "conventional, clockwise", 0: "climb"}
+CYCLES = CycleTable(runs="definition", addresses=SimpleNamespace(  # of pockets
+    surface=addresses.surface, clearance=addresses.clearance,
+    scope=partial(addresses.choice, "M", "scope of work", SCOPE, 0, default=0),
+    depth=partial(addresses.depth, meaning="depth from the surface to the floor", example=-10),
+    infeed=partial(addresses.distance, "P", "infeed of each layer", 4),
+    side_allowance=partial(addresses.allowance, "U", "allowance of the walls", 0.5, note="0: the walls are not finished"),
+    floor_allowance=partial(addresses.allowance, "W", "allowance of the floor", 0.5, note="0: the floor is not finished"),
+    finish_infeed=partial(addresses.allowance, "I", "infeed when finishing the walls", 5, note="0: one infeed"),
+    overlap=partial(addresses.overlap, 1.4, 1),
+    feed=partial(addresses.feed, "milling feed", example=500),
+    plunge_feed=partial(addresses.own_feed, "V", "feed of the plunge", 150),
+    milling_mode=partial(addresses.choice, "L", "kind of milling with M3", MODE, 1, default=1),
+    finish_feed=partial(addresses.other_feed, "T", "finishing feed", 300),
+))  # fmt: skip
 ORIGIN = (0.0, 0.0)
 STRATEGY: dict[float, str] = {
     0: "meander, stepover outside the surface",
@@ -43,11 +59,15 @@ STRATEGY: dict[float, str] = {
 
 
 class MillingCycle(Cycle):
-    """What all of them need of the machine: a tool with a radius, a feed, no radius compensation."""
+    """What all of them need of the machine: a tool with a radius, a feed, no radius compensation; who inherits names the
+    parameters."""
 
     does: ClassVar[str] = MILLS
+    scope = surface = depth = infeed = clearance = side_allowance = floor_allowance = finish_infeed = overlap = plunge = 0.0
+    plunge_feed = milling_mode = 0.0
 
     feed: float | None
+    finish_feed: float | None
 
     def check(self, m: Machine) -> Iterator[tuple[str, str]]:
         yield from out_of_place(m)
@@ -57,7 +77,7 @@ class MillingCycle(Cycle):
             yield "feed", "is missing, and no feed rate was programmed before"
 
 
-@CYCLES("G320", "Line-by-line milling", runs="definition", source="MNC 10.1")
+@CYCLES("G320", "Line-by-line milling", source="MNC 10.1")
 class LineMilling(MillingCycle):
     """Mills a surface at one height on a given number of lines along X, to and fro."""
 
@@ -110,7 +130,7 @@ class LineMilling(MillingCycle):
         yield Go("to the clearance level", above)
 
 
-@CYCLES("G321", "Face milling", runs="definition", source="MNC 10.2")
+@CYCLES("G321", "Face milling", source="MNC 10.2")
 class FaceMilling(MillingCycle):
     """Mills a surface in several infeeds, the last of them a finishing cut; each level backwards over the one before."""
 
@@ -206,25 +226,15 @@ class FaceMilling(MillingCycle):
 # The parts are the same for both: roughing in layers, the walls if U is given, the floor if W is given; each cycle says
 # only its shape.
 
-SCOPE: dict[float, str] = {0: "roughing and finishing", 1: "roughing only", 2: "finishing only"}
-MODE: dict[float, str] = {1: "climb, counter-clockwise", -1: "conventional, clockwise", 0: "climb"}
 STRAIGHT_OR_HELIX: dict[float, str] = {0: "vertical", 1: "helical"}
 PLUNGE = STRAIGHT_OR_HELIX | {2: "reciprocating"}
 LEAST = "at least the tool radius is taken"
 ENTRIES = ("vertical", "helix", "ramp")
-
-scope = partial(addresses.choice, "M", "scope of work", SCOPE, 0, default=0)
-depth = partial(addresses.depth, meaning="depth from the surface to the floor", example=-10)
-infeed = partial(addresses.distance, "P", "infeed of each layer", 4)
-side_allowance = partial(addresses.allowance, "U", "allowance of the walls", 0.5, note="0: the walls are not finished")
-floor_allowance = partial(addresses.allowance, "W", "allowance of the floor", 0.5, note="0: the floor is not finished")
-finish_infeed = partial(addresses.allowance, "I", "infeed when finishing the walls", 5, note="0: one infeed")
-overlap = partial(addresses.overlap, 1.4, 1)
+POCKET = (
+    "surface depth infeed clearance side_allowance floor_allowance finish_infeed overlap plunge feed plunge_feed milling_mode "
+    "finish_feed"
+)
 plunge = partial(addresses.choice, "J", "plunge strategy", example=1, default=0)
-feed = partial(addresses.feed, "milling feed", example=500)
-plunge_feed = partial(addresses.own_feed, "V", "feed of the plunge", 150)
-milling_mode = partial(addresses.choice, "L", "kind of milling with M3", MODE, 1, default=1)
-finish_feed = partial(addresses.other_feed, "T", "finishing feed", 300)
 
 
 def climb(pocket: AnyPocket) -> bool:
@@ -309,28 +319,15 @@ def mill(pocket: AnyPocket, m: Machine) -> Iterator[Step]:
     yield Go("to the start point", end)
 
 
-@CYCLES("G343", "Rectangular pocket", runs="definition", source="MNC 10.3")
+@CYCLES("G343", "Rectangular pocket", source="MNC 10.3", takes=f"scope length_x length_y corner_radius rotation {POCKET}")
 class RectangularPocket(MillingCycle):
     """Mills a rectangular pocket about the place of the tool: roughing, walls, floor."""
 
-    scope: float = scope()
     length_x: float = addresses.side("A", "pocket length along X", 60)
     length_y: float = addresses.side("B", "pocket length along Y", 40)
     corner_radius: float = param("R", "corner radius", default=0, at_least=0, example=8, note=LEAST)
     rotation: float = addresses.angle("E", "angle of the pocket", 15)
-    surface: float = addresses.surface()
-    depth: float = depth()
-    infeed: float = infeed()
-    clearance: float = addresses.clearance()
-    side_allowance: float = side_allowance()
-    floor_allowance: float = floor_allowance()
-    finish_infeed: float = finish_infeed()
-    overlap: float = overlap()
     plunge: float = plunge(choices=PLUNGE, note="1 and 2 need the plunge angle of the tool")
-    feed: float | None = feed()
-    plunge_feed: float = plunge_feed()
-    milling_mode: float = milling_mode()
-    finish_feed: float | None = finish_feed()
 
     moves = mill
 
@@ -357,25 +354,12 @@ class RectangularPocket(MillingCycle):
         )  # fmt: skip
 
 
-@CYCLES("G344", "Circular pocket", runs="definition", source="MNC 10.4")
+@CYCLES("G344", "Circular pocket", source="MNC 10.4", takes=f"scope diameter {POCKET}")
 class CircularPocket(MillingCycle):
     """Mills a circular pocket about the place of the tool: roughing, walls, floor."""
 
-    scope: float = scope()
     diameter: float = param("D", "diameter of the finished pocket", above=0, example=50)
-    surface: float = addresses.surface()
-    depth: float = depth()
-    infeed: float = infeed()
-    clearance: float = addresses.clearance()
-    side_allowance: float = side_allowance()
-    floor_allowance: float = floor_allowance()
-    finish_infeed: float = finish_infeed()
-    overlap: float = overlap()
     plunge: float = plunge(choices=STRAIGHT_OR_HELIX, note="1 needs the plunge angle of the tool")
-    feed: float | None = feed()
-    plunge_feed: float = plunge_feed()
-    milling_mode: float = milling_mode()
-    finish_feed: float | None = finish_feed()
 
     contradictions, moves = too_deep, mill
 
