@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mnclab.text.alarm import ALARM, Alarm, Alarms, Span, card_html, several
+from mnclab.text.columns import merged
 from mnclab.text.expression import Expression
 from mnclab.text.given import shown
 from mnclab.text.tables import fixed, html_table
@@ -296,7 +297,6 @@ class Program:
 CHUNK = 65_536  # words that a builder holds one by one
 MOST_WORDS = 1000  # of a block: what has more is no block of any control, and a long line must not fill the memory
 MOST_FAULTS = 5000  # of a text, which is read no further: each takes its time, and nobody mends so many
-FEW = 1000  # stretches of blocks that are copied one after the other
 
 
 class TooManyFaults(Exception):
@@ -402,7 +402,7 @@ class ProgramBuilder:
             more_heads, first = [bulk.start, *same, bulk.plain], bulk.first
             if len(blocks):
                 sizes = [count, np.diff(first)]
-                columns, heads = _merged(columns, more, 4), _merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
+                columns, heads = merged(columns, more, 4), merged([*heads, sizes[0]], [*more_heads, sizes[1]], 0)
                 first = first_words(heads[4])
             else:
                 columns, heads = more, more_heads
@@ -449,30 +449,6 @@ def first_words(size: NDArray[Any]) -> NDArray[np.int32]:
     first = np.zeros(len(size) + 1, dtype=np.int32)
     np.cumsum(size, out=first[1:])
     return first
-
-
-def _merged(some: list[Any], others: list[Any], by: int) -> list[Any]:
-    """Two sets of columns sorted together by one of them."""
-    places = np.searchsorted(others[by], some[by])
-    steps = np.diff(places, prepend=-1)
-    cuts = np.flatnonzero(steps)  # where `some` goes on at another place of the others
-    if len(cuts) <= FEW and (steps >= 0).all():  # whole stretches are copied faster than single rows
-        return [_between(*pair, cuts, places[cuts]) for pair in zip(some, others, strict=True)]
-    order = np.argsort(np.concatenate([some[by], others[by]]), kind="stable")
-    return [np.concatenate(pair)[order] for pair in zip(some, others, strict=True)]
-
-
-def _between(some: NDArray[Any], others: NDArray[Any], cuts: NDArray[Any], places: NDArray[Any]) -> NDArray[Any]:
-    """Stretches of one column between those of another, which is used up: its own are moved where they are, from the last one
-    on, because new memory would cost more than the work."""
-    stretches, ends = np.split(some, cuts)[1:], [*places, len(others)][1:]
-    others = others.astype(np.promote_types(some.dtype, others.dtype), copy=not others.flags.owndata)
-    others.resize(len(others) + len(some), refcheck=False)
-    for stretch, place, end, before in reversed([*zip(stretches, places, ends, cuts, strict=True)]):
-        behind = before + len(stretch)
-        others[place + behind : end + behind] = others[place:end]
-        others[place + before : place + behind] = stretch
-    return others
 
 
 class BulkBlocks(NamedTuple):
