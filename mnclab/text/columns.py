@@ -1,4 +1,4 @@
-"""Columns of numbers as text, some rows at a time: the million rows of a long program are never a million objects. And merged.
+"""Columns of numbers as text, some rows at a time: the million rows of a long program are never a million objects."""
 
 from __future__ import annotations
 
