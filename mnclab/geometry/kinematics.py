@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -89,14 +90,19 @@ class Axis:
 
     def turns(self, angles: Array) -> Array:
         """The turns (…, 4, 4) by angles (…) rad about the centre (Rodrigues)."""
-        k = np.asarray(self.direction)
-        across = np.array([[0.0, -k[2], k[1]], [k[2], 0.0, -k[0]], [-k[1], k[0], 0.0]])
+        still, across, beside = self._parts
         s, c = np.sin(angles)[..., None, None], np.cos(angles)[..., None, None]
-        found = np.zeros((*np.shape(angles), 4, 4))
-        found[..., :3, :3] = c * np.eye(3) + s * across + (1 - c) * np.outer(k, k)
-        centre = np.asarray(self.centre)
-        found[..., :3, 3], found[..., 3, 3] = centre - found[..., :3, :3] @ centre, 1.0
-        return found
+        return np.asarray(still + s * across + c * beside)
+
+    @cached_property
+    def _parts(self) -> tuple[Array, Array, Array]:
+        """What of a turn stands still, goes with the sine and with the cosine of the angle, each (4, 4)."""
+        (x, y, z), centre = self.direction, np.asarray(self.centre)
+        along, across = np.outer(self.direction, self.direction), np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        still, *rest = (np.pad(part, (0, 1)) for part in (along, across, np.eye(3) - along))
+        for part, sign in ((still, 1.0), *((each, 0.0) for each in rest)):
+            part[:3, 3], part[3, 3] = sign * centre - part[:3, :3] @ centre, sign
+        return still, *rest
 
 
 @fitting_class
