@@ -97,12 +97,13 @@ class Axis:
     @cached_property
     def _parts(self) -> tuple[Array, Array, Array]:
         """What of a turn stands still, goes with the sine and with the cosine of the angle, each (4, 4)."""
-        (x, y, z), centre = self.direction, np.asarray(self.centre)
-        along, across = np.outer(self.direction, self.direction), np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        still, *rest = (np.pad(part, (0, 1)) for part in (along, across, np.eye(3) - along))
-        for part, sign in ((still, 1.0), *((each, 0.0) for each in rest)):
-            part[:3, 3], part[3, 3] = sign * centre - part[:3, :3] @ centre, sign
-        return still, *rest
+        k = np.asarray(self.direction)
+        (x, y, z), along = k.tolist(), np.outer(k, k)
+        across, to_centre = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]), np.eye(4)
+        to_centre[:3, 3] = np.negative(self.centre)
+        still, sine, cosine = (np.pad(part, (0, 1)) @ to_centre for part in (along, across, np.eye(3) - along))
+        still[:, 3] += (*self.centre, 1.0)
+        return still, sine, cosine
 
 
 @fitting_class
