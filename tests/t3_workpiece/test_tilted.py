@@ -41,7 +41,7 @@ def leaning(low, half, angle):
 
 
 def test_a_slot_ends_in_the_sides_of_the_block():
-    """A slot along X under an overhang: between the last nodes and X30 nothing of the surface is beside the side itself, whose area
+    """A slot along X under an overhang: between the last nodes and X30 nothing of the surface is but the side itself, whose area
     is that of the section."""
     part = run(plane(SLOT, a=30)).workpiece(step=0.5)
     solid = part.solid()

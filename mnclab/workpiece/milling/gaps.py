@@ -324,5 +324,5 @@ def _left(of: tuple[Moves, Array, Array], inside: Array, outside: Array) -> Arra
         beyond = np.where(met, beyond / (1 if halves else 2), here)
         inside, within, outside = np.where(met, place, inside), np.where(met, here, within), np.where(met, outside, place)
         found[k], goes = inside, within < -RIM
-        k, inside, within, outside, beyond = (each[goes] for each in (k, inside, within, outside, beyond))
+        k, (inside, within, outside, beyond) = k[goes], (each[goes] for each in (inside, within, outside, beyond))
     return found
