@@ -222,7 +222,7 @@ def _grown(m: Machine, before: CutSoFar | None, stock: Blank) -> CutSoFar:
     pieces = m.settled[before.pieces if before else 0 :]
     if before and not pieces:
         return before
-    path = concatenate(pieces) if pieces else join([], m.recorder)
+    path = (concatenate(pieces) if pieces else join([], m.recorder)).annotated(kinematics=m.setup.kinematics)
     changes = m.logs.changed("tool", m.step)
     tools, which, lift = tools_of_rows(path.step, changes, m.setup.tools, m.logs.value, m.setup.true_tools)
     path = true_path(path, m.setup, changes, m.tables.tools[0].effective_length, m.logs.changed(CHAIN, m.step))

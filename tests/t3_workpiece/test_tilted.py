@@ -273,3 +273,7 @@ def test_a_probe_touches_what_a_tilted_tool_has_cut():
     ball = Tool(radius=1, length=80, number=2, kind="probe")
     found = run(plane(SLOT.replace("Z-3", "Z-6"), a=30) + touch, others={2: ball}, part="cut")
     assert found.variables["Q5"] == pytest.approx((-6 + 1) / math.cos(math.pi / 6) - 1, abs=1e-9)
+    a = mnc.Axis("A", centre=(0, 0.1, 50), limits=(-120, 120))  # the true one: it cuts 0.1 sin 30 deeper
+    true = mnc.Kinematics(table=(a, mnc.Axis("C")))
+    found = run(plane(SLOT.replace("Z-3", "Z-6"), a=30) + touch, others={2: ball}, part="cut", true_kinematics=true)
+    assert found.variables["Q5"] == pytest.approx((-6.05 + 1) / math.cos(math.pi / 6) - 1, abs=1e-6)

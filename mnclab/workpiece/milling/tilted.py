@@ -57,10 +57,12 @@ def tilted_groups(cutting: Cutting) -> tuple[Group, ...]:
 
 
 def _turned(cutting: Cutting) -> Iterator[Group]:
-    """Rows of a drum that turns under the tool, piece by piece, and the tool upright at both ends of each row."""
-    row, up, tips = wound(cutting, rows_round(cutting))
+    """Rows of a drum that turns under the tool, piece by piece, and the tool upright where it begins and ends to turn one way."""
+    (row, up, tips), path = wound(cutting, rows_round(cutting)), cutting.path
     yield from _as_groups(cutting, row, up[1], *tips)
-    for k, some in enumerate((np.diff(row, prepend=-1) != 0, np.diff(row, append=-1) != 0)):
+    along = path.axis[row] * np.sign(path.sweep[row])[:, None]
+    breaks = (np.diff(row) > 1) | (np.einsum("ki,ki->k", along[1:], along[:-1]) < 1 - TURNED)
+    for k, some in enumerate((np.append(True, breaks)[: len(row)], np.append(breaks, True)[: len(row)])):
         yield from _as_groups(cutting, row[some], up[2 * k][some], tips[k][some], tips[k][some])
 
 
