@@ -214,7 +214,7 @@ class Proof(Pictured, Listing):
 
     def plot(self, **options: Any) -> Any:
         """Both paths about the first difference, with both places marked; `number` of another one, `view`, `size`."""
-        from mnclab.show.plot.proof import plot_proof
+        from mnclab.show.plot.side_by_side import plot_proof
 
         return plot_proof(self, **options)
 
