@@ -11,7 +11,7 @@ from mnclab.machine.axes import CHAIN, lengths_of_rows, references
 from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Toolpath
 from mnclab.runs.history import History
-from mnclab.text.alarm import Absent, Alarm, several
+from mnclab.text.alarm import Absent, several
 from mnclab.text.given import FigureOptions, choice, fitting_class, shown
 from mnclab.text.tables import Columned, Pictured, html_table, text_table
 
@@ -91,12 +91,6 @@ class AxisPositions(Pictured, Columned):
 
     def plot(self, profile: Profile | None = None, **options: Unpack[FigureOptions]) -> Figure:
         """A small curve of every axis that moves, over the rows, or over the time, s, of a `profile` of the run."""
-        from mnclab.path.profile import Profile
         from mnclab.show.plot.axes import plot_axes
 
-        if profile is not None and not (isinstance(profile, Profile) and len(profile.path) == len(self)):
-            raise Alarm(
-                f"the profile that axes are drawn over is that of their run, got {shown(profile)}",
-                hint="run.axes().plot(run.profile())",
-            )
         return plot_axes(self, profile, **options)

@@ -10,6 +10,8 @@ from mnclab.path.profile import Profile
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, Picture, stacked
 from mnclab.show.plot.sizes import sized
+from mnclab.text.alarm import Alarm
+from mnclab.text.given import shown
 
 UNITS = {"X": "mm", "Y": "mm", "Z": "mm", "A": "°", "B": "°", "C": "°"}
 DECIMALS = 6  # what is below is noise of numbers
@@ -22,6 +24,9 @@ def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
 
     Over the rows of the path, or over the time of a `profile` of it, s, within a row evenly.
     """
+    if profile is not None and not (isinstance(profile, Profile) and len(profile.path) == len(axes)):
+        message = f"the profile that axes are drawn over is that of their run, got {shown(profile)}"
+        raise Alarm(message, hint="run.axes().plot(run.profile())")
     course, at = axes.course()
     course = course.round(DECIMALS)
     over = "row of the path"
