@@ -88,7 +88,7 @@ class Difference(NamedTuple):
             said = f"{self.values[0]} against {self.values[1]}" + (f" ({amount})" if amount else "")
         else:
             said = f"{amount} apart" if amount else ""
-        return f"{said} over {self.moves} moves" if self.moves > 1 else said
+        return f"{said} over {self.moves} moves".strip() if self.moves > 1 else said
 
     @property
     def sentence(self) -> str:

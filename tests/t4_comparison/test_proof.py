@@ -324,6 +324,7 @@ def test_chords_of_an_arc_are_harmless_where_they_are_allowed():
     for one, other in ((arc, fine), (fine, arc)):
         assert proof(one, other, allow=["chords"]).verdict == "same motion"
     assert proof(arc, coarse, allow=["chords"]).counts.get("geometry")
+    assert proof(arc, coarse).first.told == "over 40 moves"  # whose ends lie on the arc: no end is off by anything
     assert proof(arc, coarse, allow=["chords"], tolerance=0.01).verdict == "same motion"
 
 
