@@ -150,10 +150,12 @@ def _leaves(motion: Motion, cuts: Index, other: Motion, there: int, tolerance: f
     rows = np.arange(motion.row[cuts[0]], motion.last[cuts[-1]] + 1)
     if there >= len(other.cuts):
         return int(rows[0]), float("nan")
-    cut, ends = other.cuts[there], motion.path.end[rows]
+    cut = other.cuts[there]
     begin, end, _ = strokes_of(other.path[other.row[cut] : other.last[cut] + 1], tolerance / 10)
+    places = [points_at(motion.path, rows, np.full(len(rows), share)) for share in (0.5, 1.0)]  # of a chord the middle is off
     moves = np.searchsorted(motion.row, rows, "right") - 1
-    off = np.maximum(np.linalg.norm(ends - nearest_of(ends, begin, end), axis=1), leaning(motion, moves, other, np.array([cut])))
+    far = [np.linalg.norm(place - nearest_of(place, begin, end), axis=1) for place in places]
+    off = np.max([*far, leaning(motion, moves, other, np.array([cut]))], axis=0)
     first = int(np.argmax(off > tolerance))
     return int(rows[first]), float(off[first]) if off[first] > tolerance else float("nan")
 

@@ -88,7 +88,7 @@ class Difference(NamedTuple):
             said = f"{self.values[0]} against {self.values[1]}" + (f" ({amount})" if amount else "")
         else:
             said = f"{amount} apart" if amount else ""
-        return f"{said} over {self.moves} moves" if self.moves > 1 else said
+        return f"{said} over {self.moves} moves".strip() if self.moves > 1 else said
 
     @property
     def sentence(self) -> str:
@@ -214,7 +214,7 @@ class Proof(Pictured, Listing):
 
     def plot(self, **options: Any) -> Any:
         """Both paths about the first difference, with both places marked; `number` of another one, `view`, `size`."""
-        from mnclab.show.plot.proof import plot_proof
+        from mnclab.show.plot.side_by_side import plot_proof
 
         return plot_proof(self, **options)
 

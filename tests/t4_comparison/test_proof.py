@@ -324,6 +324,9 @@ def test_chords_of_an_arc_are_harmless_where_they_are_allowed():
     for one, other in ((arc, fine), (fine, arc)):
         assert proof(one, other, allow=["chords"]).verdict == "same motion"
     assert proof(arc, coarse, allow=["chords"]).counts.get("geometry")
+    first = proof(arc, coarse).first  # the ends of chords lie on the arc, their middles do not
+    assert first.amount == pytest.approx(10 * (1 - math.cos(math.pi / 80)), abs=2e-4) and first.moves == 40
+    assert first._replace(amount=float("nan")).told == "over 40 moves"
     assert proof(arc, coarse, allow=["chords"], tolerance=0.01).verdict == "same motion"
 
 

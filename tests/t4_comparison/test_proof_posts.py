@@ -339,7 +339,7 @@ def test_one_fault_is_told_first_at_its_block(name):
 
 
 def test_of_compensated_blocks_it_is_told_how_far_their_ends_are_apart():
-    """The end of the arc goes 1 mm up: at the corner before it, where the tool turns in, that makes 2.4 µm."""
+    """The end of the arc goes 1 mm up; at the corner before it, where the tool turns in, that moves it by microns alone."""
     told = [MNC, MNC.replace("N110 G2 X80 Y40 I0 J-10", "N110 G2 X80 Y41 R10")]
     first = mnc.prove(*(mnc.run(text, "mnc", PLAIN) for text in told)).first
     assert (first.kind, first.lines) == ("geometry", (12, 12)) and first.amount == pytest.approx(1, abs=1e-9)
