@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mnclab.comparison.diff import deviation, nearest_of, strokes_of
+from mnclab.comparison.diff import nearest_of, strokes_of
 from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of
 from mnclab.comparison.motion import NO_WAY, Motion
 from mnclab.comparison.pairs import Pairs, Stretch, alongside, apart, leaning, one_swing, paired, same_places
@@ -23,7 +23,10 @@ BENT = 0.01  # rad: as much less of arcs has the one that has chords in their pl
 CHAIN = 3  # cuts in place of one: fewer are compared one by one
 CAUSES, FIRST = ("", "tool", "side", "depth", "geometry", "rapid", "nearer", "aside", "spindle", "feed"), 4  # "": missing
 CUTS = ("geometry", "depth", "side")  # kinds
-LONGEST = 4000  # cuts of a stretch that is looked at as a whole
+LONGEST, AT_ONCE = 400_000, 4096  # cuts of a stretch that is looked at as a whole, and so many of its strokes at a time
+LONGER = 1e-3  # of a way: by how much more than chords may make it
+SAME = 1e-9  # shares of a way
+LONG, SHORT = 64, 0.1  # cuts of a stretch that is looked at for a part that is apart, and the share of the way that it may have
 FLOWS = ("off", "on (M8)", "on (M7)")
 SIDES = {0: "none", 1: "left", -1: "right"}
 
@@ -69,7 +72,11 @@ def _of_stretches(
         i, to_i, j, to_j = stretch
         longer = (i, min(to_i + 1, len(one.cuts)), j, min(to_j + 1, len(other.cuts)))  # a line that one of them goes in two
         alike = next((each for each in (stretch, longer) if _one_way(one, other, *each, tolerance)), None)
-        (one_way if alike else odd).append(alike or stretch)
+        if alike is None and (apart_between := _apart_between(one, other, stretch, tolerance)):
+            found.append(apart_between[0])
+            one_way += [each for each in apart_between[1] if each[0] < each[1] and each[2] < each[3]]
+        else:
+            (one_way if alike else odd).append(alike or stretch)
     for i, to_i, j, to_j in (one_way := pairs.chords + one_way):
         bent = [np.abs(motion.sweep[motion.cuts[a:b]]).sum() for motion, a, b in ((one, i, to_i), (other, j, to_j))]
         if abs(bent[0] - bent[1]) >= BENT:
@@ -174,27 +181,69 @@ def _one_way(one: Motion, other: Motion, i: int, to_i: int, j: int, to_j: int, t
     """Whether two stretches of cuts are one way divided otherwise: no place of either is off the other by more."""
     if i == to_i or j == to_j or max(to_i - i, to_j - j) > LONGEST:
         return False
-    paths, here, there = [], one.cuts[i:to_i], other.cuts[j:to_j]
+    here, there = one.cuts[i:to_i], other.cuts[j:to_j]
     if any(cuts[-1] - cuts[0] != len(cuts) - 1 for cuts in (here, there)):  # there are rapids between
         return False
     if max(leaning(one, here, other, there[:1]).max(), leaning(other, there, one, here[:1]).max()) > tolerance:
         return one_swing(one, here, other, there, tolerance)
-    for motion, cuts in ((one, here), (other, there)):
-        path = motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1]
-        paths.append(path[path.is_motion & (path.lengths > NO_WAY)])
-    p, q = paths
+    p, q = _path_of(one, here), _path_of(other, there)
     if to_i - i == to_j - j:  # as many: block by block, or not at all
         straight = (p.kind == Kind.LINE).all() and (q.kind == Kind.LINE).all()
         return bool(straight) and len(p) == len(q) > to_i - i and bool((np.linalg.norm(p.end - q.end, axis=1) <= tolerance).all())
     ends = max(np.abs(p.start[0] - q.start[0]).max(), np.abs(p.end[-1] - q.end[-1]).max())
-    if ends > tolerance or abs(p.length - q.length) > 1e-3 * p.length + tolerance or not p.length:
+    if ends > tolerance or abs(p.length - q.length) > LONGER * p.length + tolerance or not p.length:
         return False
     halfway = [points_at(each, *_at_shares(each)) for each in (p, q)]  # the same way round
     if np.linalg.norm(halfway[0] - halfway[1], axis=1).max() > tolerance + ROUGH * p.length:
         return False
-    bent = (p.kind == Kind.ARC).any() or (q.kind == Kind.ARC).any()  # of lines the ends are enough
-    step = max(p.length / 2000, tolerance) if bent else p.length
-    return bool(deviation(p, q, step=step, chord_error=tolerance / 10).largest <= tolerance)
+    return all((off <= tolerance).all() for off, _ in _beside(p, q, tolerance))
+
+
+def _beside(p: Toolpath, q: Toolpath, tolerance: float) -> Iterator[tuple[Array, Array]]:
+    """How far off the other path each stroke of p ends, mm, and what share of the way is behind then, each (k,); the same of q.
+
+    The other is looked at no farther along its way than as much longer as it may be.
+    """
+    strokes = [strokes_of(path, tolerance / 10)[:2] for path in (p, q)]
+    ways = [np.cumsum(np.linalg.norm(end - start, axis=1)) for start, end in strokes]
+    shares, slack = [way / way[-1] for way in ways], LONGER + tolerance / ways[0][-1]
+    for (_, ends), share, (begins, behind), other in zip(strokes, shares, strokes[::-1], shares[::-1]):
+        off = np.empty(len(ends))
+        for k in range(0, len(ends), AT_ONCE):
+            here = ends[k : k + AT_ONCE]
+            first, last = np.searchsorted(other, share[k : k + AT_ONCE][[0, -1]] + (-slack, slack)).tolist()
+            near = nearest_of(here, begins[first : last + 1], behind[first : last + 1])
+            off[k : k + AT_ONCE] = np.linalg.norm(here - near, axis=1)
+        yield off, share
+
+
+def _apart_between(
+    one: Motion, other: Motion, stretch: Stretch, tolerance: float
+) -> tuple[Found, tuple[Stretch, Stretch]] | None:
+    """Where two long stretches that are one way but for a short part of it are apart, and the stretches before and behind."""
+    i, to_i, j, to_j = stretch
+    cuts = one.cuts[i:to_i], other.cuts[j:to_j]
+    gaps = any(some[-1] - some[0] != len(some) - 1 for some in cuts if len(some))  # rapids
+    if not LONG < max(map(len, cuts)) <= LONGEST or min(map(len, cuts)) < 3 or gaps or one.turns or other.turns:
+        return None
+    p, q = _path_of(one, cuts[0]), _path_of(other, cuts[1])
+    if np.abs(p.end[-1] - q.end[-1]).max() > tolerance or abs(p.length - q.length) > LONGER * p.length + tolerance:
+        return None
+    looks = [*_beside(p, q, tolerance)]
+    wrong = np.concatenate([share[off > tolerance] for off, share in looks])
+    if not len(wrong) or np.ptp(wrong) > SHORT:
+        return None
+    ways = [np.cumsum(motion.lengths[some]) for motion, some in zip((one, other), cuts)]
+    (a, to_a), (b, to_b) = (np.searchsorted(way / way[-1], (wrong.min() - SAME, wrong.max())).tolist() for way in ways)
+    farthest = max(float(off.max()) for off, _ in looks)
+    found = Found("geometry", rows_of(one, i + a, other, j + b), farthest, "mm", ("", ""), 1)
+    return found, ((i, i + a, j, j + b), (min(i + to_a + 1, to_i), to_i, min(j + to_b + 1, to_j), to_j))
+
+
+def _path_of(motion: Motion, cuts: Index) -> Toolpath:
+    """Of cuts one behind the other the rows that have a way."""
+    path = motion.path[motion.row[cuts[0]] : motion.last[cuts[-1]] + 1]
+    return path[path.is_motion & (path.lengths > NO_WAY)]
 
 
 def _at_shares(path: Toolpath) -> tuple[Index, Array]:

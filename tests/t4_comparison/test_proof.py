@@ -580,3 +580,27 @@ def test_a_picture_is_about_the_place_of_a_difference_and_not_about_its_row():
     for ax, k in zip(found.plot().axes, (0, 1)):
         low, high = ax.get_ylim()
         assert abs((low + high) / 2 - ends[:, k].mean()) < 1 and high - low < 40
+
+
+def waves(count, pieces):
+    """Half circles of 5 mm above and below X in turn, and lines between points on them: where they meet, two lines are one."""
+    head = "T1 M6\nS1000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\n"
+    turns = "".join(f"G{2 + k % 2} X{10 * k + 10} Y0 I5\n" for k in range(count))
+    shares = np.arange(1, pieces * count + 1) / pieces
+    k = np.ceil(shares) - 1
+    x, y = 10 * k + 5 - 5 * np.cos(np.pi * (shares - k)), 5 * (-1) ** k * np.sin(np.pi * (shares - k))
+    lines = [f"G1 X{a:.5f} Y{b:.5f}\n" for a, b in zip(x.tolist(), y.tolist())]
+    return f"{head}{turns}G0 Z5\nM2\n", head, lines
+
+
+def test_chords_of_arcs_whose_ends_lie_within_lines():
+    arcs, head, lines = waves(120, 64)
+    chords = f"{head}{''.join(lines)}G0 Z5\nM2\n"
+    assert mnc.prove(arcs, chords, tolerance=0.01, allow="chords").verdict == "same motion"
+    for k in (700, 4000, 7600):
+        x, y = (float(word[1:]) for word in lines[k].split()[1:])
+        middle = 10 * (k // 64) + 5  # a point is 0.05 mm too far out
+        wrong = [*lines[:k], f"G1 X{middle + 1.01 * (x - middle):.5f} Y{1.01 * y:.5f}\n", *lines[k + 1 :]]
+        found = mnc.prove(arcs, f"{head}{''.join(wrong)}G0 Z5\nM2\n", tolerance=0.01, allow="chords")
+        (told,) = [each for each in found.differences if each.kind == "geometry"]
+        assert found.verdict == "different" and told.lines[1] == k + 5 and told.amount == pytest.approx(0.05, abs=1e-3)
