@@ -44,6 +44,7 @@ from mnclab.workpiece.milling.tilted import meeting, rows_round, wound
 from mnclab.workpiece.part import Part
 
 ROUGH, FEW = 60, 200  # points of a cut, enough to see whether it takes anything, and of what is behind the edges
+MOST_ROUND = 100  # rows on which a drum turns that are judged: each over what all before have left
 FALL = 0.1  # mm, by which a move may fall before it is cut up: its edges are before its shank
 POINTED = ("drill", "reamer", "countersink", "tap")  # tools that go straight down, and may
 MIDDLE = Body("middle", Cutter(0.0, 0.0), TOLERANCE)  # the axis of a tool
@@ -76,7 +77,7 @@ def clampings(cutting: Cutting) -> Iterator[tuple[Cutting, int, Array | None]]:
     assert cutting.directions is not None
     begins = np.append(True, cutting.turning[1:] | cutting.turning[:-1])
     begins[1:] |= (np.abs(np.diff(cutting.directions[:, 2], axis=0)) > TURNED).any(axis=1)
-    ends, near = np.append(np.flatnonzero(begins)[1:], len(cutting)), {*rows_round(cutting).tolist()}
+    ends, near = np.append(np.flatnonzero(begins)[1:], len(cutting)), {*_near_drum(cutting)[:MOST_ROUND].tolist()}
     for first, last in zip(np.flatnonzero(begins).tolist(), ends.tolist()):
         if cutting.turning[first] or not cutting.path.is_motion[first:last].any():
             yield from _wound(cutting, first) if first in near else ()
@@ -90,12 +91,27 @@ def clampings(cutting: Cutting) -> Iterator[tuple[Cutting, int, Array | None]]:
             yield _aslant(own, turn, _left(cutting, first)), first, turn
 
 
+def _near_drum(cutting: Cutting) -> Index:
+    """The rows on which a drum turns and a tool meets it with what must not: not above its farthest place with its rapids, an
+    edge that does not cut or stands, its shank and holder."""
+    rows, path = rows_round(cutting), cutting.path
+    row, (first, _, last), (starts, ends) = wound(cutting, rows)
+    if not len(row):
+        return row
+    lifts = [min((body.lift for body in (*above_edges(tool), *holder(tool))), default=np.inf) for tool in cutting.tools]
+    idle = np.array([tool.kind in ALONG for tool in cutting.tools])[cutting.which[row]] | (path.kind[row] == Kind.RAPID)
+    turns = np.array([1 if tool.hand == "right" else -1 for tool in cutting.tools])[cutting.which[row]]
+    idle |= path.spindle[row] * turns <= 0
+    axis, point = path.axis[row[0]], path.centre[row[0]]  # one drum
+    away = np.concatenate(cutting.stock.edges()) - point
+    reach = float(np.linalg.norm(away - np.multiply.outer(away @ axis, axis), axis=1).max())
+    above = (np.einsum("ij,ij->i", end - path.centre[row], up) for end, up in ((starts, first), (ends, last)))
+    low = np.minimum(*above) + np.where(idle, 0.0, np.array(lifts)[cutting.which[row]])
+    return rows if len(cutting.fixtures) else np.unique(row[low < reach])
+
+
 def _wound(cutting: Cutting, row: int) -> Iterator[tuple[Cutting, int, Array]]:
-    """A row on which a drum turns, piece by piece, each in the direction in its middle, where it may meet something at all."""
-    tool, path = cutting.tool(row), cutting.path
-    plain = not (above_edges(tool) or holder(tool) or cutting.fixtures or tool.kind in ALONG or path.kind[row] == Kind.RAPID)
-    if plain and path.spindle[row] * (1 if tool.hand == "right" else -1) > 0:
-        return
+    """A row on which a drum turns, piece by piece, each in the direction in its middle."""
     own, body = cutting.rows(slice(row, row + 1)), _left(cutting, row)
     columns = {name: getattr(own.path, name) for name in own.path.all_but_ends()}
     columns["kind"] = np.where(own.path.kind == Kind.ARC, Kind.LINE, own.path.kind)
@@ -126,7 +142,9 @@ def _seen(fixture: Blank | Part, place: Placement) -> Blank | Part:
 
 def _not_judged(cutting: Cutting) -> Iterator[str]:
     """What is not looked at, in a sentence for people."""
-    if (out := meeting(cutting) & ~cutting.round_).any():
+    out = meeting(cutting) & ~cutting.round_
+    out[_near_drum(cutting)[MOST_ROUND:]] = True
+    if out.any():
         yield f"{several(int(out.sum()), 'row')} on which the tool turns not judged ({cutting.lines(out)})"
 
 

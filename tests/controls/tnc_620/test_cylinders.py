@@ -560,6 +560,16 @@ def test_a_holder_over_a_drum_that_turns_is_judged(known):
         assert bool(turned) == bool(depth) and all(each.depth == pytest.approx(depth, abs=2e-3) for each in turned)
 
 
+def test_of_very_many_turns_that_meet_the_drum_the_rest_is_named():
+    """60 there and back and 60 back, round the drum and along it: 120 rows, 100 of which are judged."""
+    way = "".join(f"\nL Y+{1 + k / 10} \nL X+{k % 2}" for k in range(120))
+    run = mnc.run(program(27, f"L X+0 Y+0 R0{way}", Q17=0, Q10=7), "tnc-620",
+                  stock=DRUM, tools={1: mnc.Tool(radius=3.5, holder=((20, 5),))})
+    found = run.collisions(step=2.0)
+    assert len({each.row for each in found if run.toolpath.rotary[each.row, 0] > 0}) >= 100
+    assert "rows on which the tool turns not judged" in " ".join(found.notes)
+
+
 def test_what_turns_in_a_drum_at_rapid_or_with_a_spindle_that_stands_is_told():
     head = "0 BEGIN PGM A MM\nTOOL CALL 1 Z S2000\nL X+0 Y+0 Z+40 R0 FMAX M3\nL Z+18 F100\n"
     for block, kind in (("L A+40 FMAX", "rapid"), ("M5\nL A+40 F500", "spindle"), ("L A+40 F500", None)):
