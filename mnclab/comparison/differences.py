@@ -40,7 +40,9 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
     a, b = np.unique(np.hstack([(i, j), *within]), axis=1)
     found += _of_settings(one, other, a, b, tolerance)
     between = links(one, other, i, j, parts)
-    found += of_links(one, other, *between, tolerance, around)
+    told = {(each.kind, each.rows[1]) for each in found}  # a cut of the one that the other goes at rapid is not told again
+    ways = of_links(one, other, *between, tolerance, around)
+    found += [each for each in ways if (each.kind, each.rows[1]) not in told]
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
     found = [of_contour(each, one, other, tolerance) if each.kind in CUTS else each for each in found]

@@ -1,5 +1,7 @@
 """Ways between cuts that could hit something, and what a program leaves to the machine: what may be allowed, and what never."""
 
+import math
+
 import pytest
 
 import mnclab as mnc
@@ -114,6 +116,75 @@ def test_rapids_of_a_lathe_are_told_by_their_places():
     found = proof(turned, turned.replace("G00 Z3\nX60", "G00 X60\n"), setup, controls=("jnc-t01", "jnc-t01"))
     assert found.verdict == "same part" and not found.harmless and found.first.lines == (8, 8)
     assert found.first.values[1].startswith("by X60 (radius) Z-25, X60 (radius) Z50")
+
+
+FRAME = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nM3\nL Z+100 R0 FMAX\n{}\nM5\nEND PGM A MM\n"
+BODY = ((0, 0, -20), (100, 80, 0))
+
+
+def klartext(one, other, stock=BODY, kinematics=None, **options):
+    """The proof of two lists of blocks; the first block is on line 5."""
+    tools = {1: mnc.Tool(radius=5, length=80)}
+    more = {} if kinematics is None else {"kinematics": kinematics}
+    setup = mnc.Setup(tools=tools, start=(0, 0, 300), stock=stock, **more)
+    return mnc.prove(*(mnc.run(FRAME.format(each.replace(" / ", "\n")), "tnc-620", setup) for each in (one, other)), **options)
+
+
+TWO_CUTS = (
+    "L X+10 Y+10 Z+50 FMAX / L Z+2 FMAX / L Z-2 F300 / L X+30 F300 / L Z+50 FMAX / L X-20 FMAX / L X+60 FMAX / L Z+2 FMAX / "
+    "L Z-2 F300 / L X+70 / L Z+50 FMAX"
+)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "lower", "line"),
+    [
+        ("L X-20 FMAX", "L X-20 FMAX / L Z-15 FMAX / L Z+50 FMAX", 65, 11),  # the first one goes by there at Z50
+        ("L X-20 FMAX", "L X-20 FMAX / L Z+5 FMAX / L Z+50 FMAX", 45, 11),  # above its last Z, and a clamp may stand there
+        ("L X+60 FMAX", "L X+60 FMAX / L Z-20 FMAX", 22, 12),  # ends at Z2 there
+        ("L X+30 F300", "L X+20 F300 / L Z-30 FMAX / L Z-2 FMAX / L X+30 F300", 80, 9),  # sideways at Z50 at least
+        ("L X+70 / L Z+50 FMAX", "L X+70", 52, 14),  # the tool stays in the part at Z-2
+    ],
+)
+def test_a_rapid_that_dips_is_lower(old, new, lower, line):
+    dips = TWO_CUTS.replace(old, new)
+    found = klartext(TWO_CUTS, dips, allow=HARMLESS)
+    (told,) = [each for each in found.differences if each.kind == "rapid"]
+    assert found.verdict == "different" and told.amount == pytest.approx(lower) and told.lines[1] == line, found
+    assert "lifts" not in found.counts and {*klartext(dips, TWO_CUTS, allow=HARMLESS).counts} <= {"lifts", "collision"}
+
+
+def test_a_rapid_that_goes_low_where_the_other_is_high_is_lower():
+    """Both go sideways at Z5 at last: the first one from X50 on, where it stands clear, the second from X30 on."""
+    one = TWO_CUTS.replace("L X-20 FMAX", "L X+50 FMAX / L Z+5 FMAX")
+    found = klartext(one, one.replace("L X+30 F300 / L Z+50 FMAX", "L X+30 F300 / L Z+5 FMAX"), allow=HARMLESS)
+    assert found.counts == {"rapid": 1} and found.first.amount == pytest.approx(45), found
+
+
+BIG = ((-40, -40, -40), (80, 40, 0))
+LEANS = "M128 / L X+0 Y+0 Z+50 FMAX / L Z-2 F300 / L X+50 B+15 F300 / L Z+50 FMAX / M129"
+TILTED = (
+    "PLANE SPATIAL SPA+0 SPB+20 SPC+0 TURN FMAX / L X+0 Y+0 Z+30 FMAX / L Z-3 F300 / L X+20 / L Z+200 FMAX / "
+    "PLANE RESET TURN FMAX / L X+0 Y+0 Z+60 FMAX"
+)
+
+
+def test_what_a_part_leaves_out_proves_no_part():
+    """Rows on which the tool turns are not in a part: by X25 Y20 a groove goes 20 mm beside the first one."""
+    found = klartext(LEANS, LEANS.replace("L X+50 B+15 F300", "L X+25 Y+20 B+8 F300 / L X+50 Y+0 B+15"), BIG, "head-bc")
+    assert found.verdict == "different" and "left out" in found.part and "8" in found.part, found
+    assert klartext(LEANS, LEANS.replace("B+15", "B+40"), BIG, "head-bc").verdict == "different"
+    dips = LEANS.replace("L Z+50 FMAX / M129", "L Z-30 B+25 FMAX / L Z-2 B+15 FMAX / L Z+50 FMAX / M129")
+    assert "rapid" in klartext(LEANS, dips, BIG, "head-bc").counts
+    higher = LEANS.replace("L Z+50 FMAX / M129", "L Z+60 FMAX / M129")  # what is upright is judged
+    assert klartext(LEANS, higher, BIG, "head-bc").verdict == "same part"
+
+
+def test_a_tool_that_turns_in_the_part_is_no_detour():
+    """Without its lift by 200 along the tool it turns at Z-3 cos(20) - 20 sin(20), where the first one keeps above Z60."""
+    found = klartext(TILTED, TILTED.replace(" / L Z+200 FMAX", ""), BIG, "table-ac")
+    assert found.verdict == "different" and found.first.kind == "rapid" and found.first.lines[1] == 9, found
+    assert found.first.amount == pytest.approx(60 + 3 * math.cos(math.radians(20)) + 20 * math.sin(math.radians(20)), abs=1e-6)
 
 
 def test_inches_for_mm_are_called_so():
