@@ -15,7 +15,7 @@ from mnclab.comparison.pairs import Pairs, Stretch, alongside, apart, leaning, o
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
@@ -91,12 +91,12 @@ def _of_stretches(
         begun = np.linalg.norm(one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]], axis=1)
         fits = np.maximum(apart(one, one.cuts[a[p]], other, other.cuts[b[q]]), begun) <= tolerance
         more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
-        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
+        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits]), np.stack([a[p[fits]], b[q[fits]]])))
     left = [np.concatenate([np.empty(0, np.int64), *(each[k] for each in lone)]) for k in (0, 1)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
     more += map(tuple, moved.tolist())
-    for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
+    for (a, b, sure), (_, to_i, _, to_j) in zip(lone, odd):
         a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
             rows = rows_of(one, int(a[0]), other, int(b[0]))
@@ -109,10 +109,11 @@ def _of_stretches(
         p, q = alongside(one, a, other, b, tolerance)
         found += _not_alike(one, a[p], other, b[q], tolerance)
         more += zip(a[p].tolist(), b[q].tolist())
-        for k, cuts, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
-            alone = np.delete(np.arange(len(cuts)), met[0])
+        known = np.hstack([sure, [a[p], b[q]]])
+        for k, cuts, here, there, met, beyond in ((0, a, one, other, p, to_j), (1, b, other, one, q, to_i)):
+            alone = np.delete(np.arange(len(cuts)), met)
             for ranks in np.split(alone, np.flatnonzero(np.diff(cuts[alone]) > 1) + 1):
-                behind = [*met[1][np.searchsorted(met[0], ranks[:1].sum()) :].tolist(), beyond][0]
+                behind = int(known[1 - k, known[k] > cuts[ranks[:1]].sum()].min(initial=beyond))
                 long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
                 if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
                     found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
@@ -124,6 +125,8 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     cuts = motion.cuts[ranks]
     begin = other.cuts[there - 1] + 1 if there else 0
     moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
+    if there and (deeper := _deeper(motion, cuts, other, there, k, tolerance)):
+        return deeper
     way, row, said = float(motion.lengths[cuts].sum()), int(other.row[-1]) if len(other) else -1, NONE
     if len(moves):
         off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
@@ -139,6 +142,19 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _deeper(motion: Motion, cuts: Index, other: Motion, there: int, k: int, tolerance: float) -> Found | None:
+    """Cuts of the one alone as another depth, where they go on down in a hole that the other has done with."""
+    last, behind = other.cuts[there - 1], other.end[other.cuts[there : there + 1]]
+    ends = [np.vstack([motion.start[cuts], motion.end[cuts]]), behind]
+    inside, beyond = ((np.linalg.norm((each - other.end[last])[:, :2], axis=1) <= tolerance).all() for each in ends)
+    deep = other.end[last, 2] - motion.end[cuts, 2].min()
+    if motion.path.lathe or not inside or (beyond and len(behind)) or deep <= tolerance:
+        return None
+    sides = [(int(motion.row[cuts[-1]]), f"Z{figure(other.end[last, 2] - deep, 4)}")]
+    sides.insert(1 - k, (int(other.row[last]), f"Z{figure(other.end[last, 2], 4)}"))
+    return Found("depth", (sides[0][0], sides[1][0]), float(deep), "mm", (sides[0][1], sides[1][1]))
 
 
 def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: float) -> bool:
@@ -268,17 +284,35 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     mill = not (one.path.lathe or other.path.lathe)
     deep = mill & (np.hypot(step[:, 0], step[:, 1]) <= tolerance) & (np.abs(off - step[:, 2]) <= tolerance)
     off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
+    far = leaning(one, p, other, q)
+    leans = (far > tolerance) & (far >= off - SAME)
     lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
         tips = np.stack(lift, axis=1)[mask]
-        for each in grouped(kind, one, i[mask], other, j[mask], partial(_off_table, tips, tolerance), off[mask]):
+        said = partial(_off_table, tips, tolerance, partial(_tilts, one, p[mask], other, q[mask], leans[mask]))
+        for each in grouped(kind, one, i[mask], other, j[mask], said, off[mask]):
             found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 
-def _off_table(tips: Array, tolerance: float, k: int) -> tuple[str, str]:
-    """How much higher than programmed the tips (k, 2) of both tools are, in words, where that is not the same."""
+def _tilts(one: Motion, i: Index, other: Motion, j: Index, leans: Mask, k: int) -> tuple[str, str] | None:
+    """How the tools stand at the end of the blocks of two moves, in words, where they lean from each other."""
+    if not leans[k]:
+        return None
+    paths, moves = (one.path, other.path), (one.row[i[k]], other.row[j[k]])
+    rows = [int(np.searchsorted(path.step, path.step[row], "right")) - 1 for path, row in zip(paths, moves)]
+    a, b = (path.directions[row] for path, row in zip(paths, rows))
+    turned = np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
+    angles = (zip("ABC", np.degrees(path.rotary[row]).tolist()) for path, row in zip(paths, rows))
+    here, there = (" ".join(f"{name}{figure(angle)}" for name, angle in each if angle) or "upright" for each in angles)
+    return f"tool {here}", f"{there}, tilted otherwise by {figure(float(turned), 3)}°" if turned > 0 else there
+
+
+def _off_table(tips: Array, tolerance: float, tilts: Callable[[int], tuple[str, str] | None], k: int) -> tuple[str, str]:
+    """How the tools lean, else how much higher than programmed their tips (k, 2) are, in words, where that is not the same."""
+    if (leans := tilts(k)) is not None:
+        return leans
     if abs(tips[k, 0] - tips[k, 1]) <= tolerance:
         return "", ""
     words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in tips[k].tolist())

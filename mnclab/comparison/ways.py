@@ -67,9 +67,9 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     least = a.least(around) if goes.any() else np.empty(0)
     for k in np.flatnonzero(goes)[:MOST].tolist():
         here, there = int(i[k]), int(j[k])
-        sunk, rank = (0.0, 0) if a.lathe else b.below(there, a, here, tolerance)
+        sunk, place = (0.0, 0) if a.lathe else b.below(there, a, here, tolerance)
         if sunk > tolerance:
-            kind[k], lower[k], deepest[k] = LOWER, sunk, rank
+            kind[k], lower[k], deepest[k] = LOWER, sunk, place
         else:
             kind[k], told[k] = _elsewhere(a, here, b, there, tolerance, around, least)
     kind[np.flatnonzero(goes)[MOST:]] = ASIDE

@@ -187,6 +187,47 @@ def test_a_tool_that_turns_in_the_part_is_no_detour():
     assert found.first.amount == pytest.approx(60 + 3 * math.cos(math.radians(20)) + 20 * math.sin(math.radians(20)), abs=1e-6)
 
 
+def test_what_could_hurt_comes_before_a_lift(tmp_path):
+    """The first way is 5 mm higher, the last cut 1 mm deeper: line 14 is why the parts differ, and what is shown."""
+    other = TWO_CUTS.replace("L X+60 FMAX", "L Z+55 FMAX / L X+60 FMAX").replace("L X+70", "L X+70 Z-3")
+    found = klartext(TWO_CUTS, other)
+    assert found.counts == {"depth": 1, "lifts": 1} and found.differences[0].kind == "lifts"
+    assert found.first.kind == "depth" and found.first.lines == (14, 15) and found.plot().alt.startswith("depth")
+    assert "different (1 other depth, 1 other lift)" in found.sentence and "first depth" in found.sentence
+    page = found.save(tmp_path / "p.html").read_text()
+    assert "<code>L X+70 Z-3</code>" in page and "`" not in page.split("<img")[0] and "margin:1em 0" in page
+
+
+HOLES = "CYCL DEF 200 D / Q200=2 / Q201={} / Q206=150 / Q202=5 / Q210=0 / Q203=0 / Q204=20 / Q211=0 / Q395=0 / "
+HOLES += "L X+20 Y+20 R0 FMAX M99 / L X+40 R0 FMAX M99 / L X+60 R0 FMAX M99 / L Z+50 FMAX"
+
+
+@pytest.mark.parametrize("depth", [9.5, 11, 16])
+def test_a_hole_with_a_peck_more_is_another_depth(depth):
+    """Of 10 mm in pecks of 5: 11 takes one more, 16 two."""
+    for one, other in ((10, depth), (depth, 10)):
+        found = klartext(HOLES.format(-one), HOLES.format(-other))
+        assert found.counts == {"depth": 3} and [each.lines for each in found.differences] == [(k, k) for k in (15, 16, 17)]
+        assert all(each.amount == pytest.approx(abs(depth - 10)) for each in found.differences)
+        assert [each.places[1][2] for each in found.differences] == [pytest.approx(-other)] * 3
+
+
+def test_along_a_tilted_tool_nothing_goes_sideways():
+    """The plane is tilted by 20 degrees: Z+4 in it is 4 cos(20) = 3.759, and the way there goes along the tool."""
+    found = klartext(TILTED, TILTED.replace("L Z-3 F300", "L Z+4 FMAX / L Z-3 F300"), BIG, "table-ac")
+    assert found.first.kind == "rapid" and "sideways at Z3.759" not in found.sentence and "rapid ends at Z3.759" in found.sentence
+
+
+def test_a_tilt_is_told_as_one():
+    leans = "M128 / L X+0 Y+0 Z+50 A-20 FMAX / L Z-2 F300 / L X+50 F300 / L Z+50 FMAX / M129"
+    found = klartext(leans, leans.replace("A-20", "A-21"), BIG, "table-ac")
+    assert found.first.kind == "geometry" and found.first.values == ("tool A-20", "A-21, tilted otherwise by 1°")
+    found = klartext(TILTED, TILTED.replace("SPB+20", "SPB+21"), BIG, "table-ac")
+    heights = [30 * math.cos(math.radians(angle)) for angle in (20, 21)]  # where the swivel has ended, not its first row
+    assert [place[2] for place in found.first.places] == [pytest.approx(z, abs=1e-6) for z in heights]
+    assert found.differences[1].values[1].endswith("tilted otherwise by 1°")
+
+
 def test_inches_for_mm_are_called_so():
     found = proof(path(BEFORE), "G20\n" + path(BEFORE))
     assert "25.4 times" in found.sentence
