@@ -72,7 +72,8 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
             kind[k], lower[k], deepest[k] = LOWER, sunk, place
         else:
             kind[k], told[k] = _elsewhere(a, here, b, there, tolerance, around, least)
-    kind[np.flatnonzero(goes)[MOST:]] = ASIDE
+    rest = np.flatnonzero(goes)[MOST:]
+    kind[rest] = np.where((b.dip[j[rest]] < a.low[i[rest]] - tolerance) & (not a.lathe), LOWER, ASIDE)
     new = (np.diff(i) != 1) | (np.diff(j) != 1) | (kind[1:] != kind[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
     first = np.flatnonzero(np.append(True, new))
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):

@@ -154,6 +154,13 @@ def test_a_rapid_that_dips_is_lower(old, new, lower, line):
     assert "lifts" not in found.counts and {*klartext(dips, TWO_CUTS, allow=HARMLESS).counts} <= {"lifts", "collision"}
 
 
+def test_of_very_many_ways_one_that_dips_is_lower_too(monkeypatch):
+    """Of more ways than are looked at one by one."""
+    monkeypatch.setattr("mnclab.comparison.ways.MOST", 0)
+    dips = TWO_CUTS.replace("L X-20 FMAX", "L X-20 FMAX / L Z-15 FMAX / L Z+50 FMAX")
+    assert klartext(TWO_CUTS, dips).counts == {"rapid": 1}
+
+
 def test_a_rapid_that_goes_low_where_the_other_is_high_is_lower():
     """Both go sideways at Z5 at last: the first one from X50 on, where it stands clear, the second from X30 on."""
     one = TWO_CUTS.replace("L X-20 FMAX", "L X+50 FMAX / L Z+5 FMAX")
