@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from mnclab.comparison.diff import nearest_of, strokes_of
-from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of
-from mnclab.comparison.motion import NO_WAY, Motion
+from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of, tilts
+from mnclab.comparison.motion import ARM, NO_WAY, Motion
 from mnclab.comparison.pairs import Pairs, Stretch, alongside, apart, leaning, one_swing, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
@@ -114,7 +114,9 @@ def _of_stretches(
             alone = np.delete(np.arange(len(cuts)), met)
             for ranks in np.split(alone, np.flatnonzero(np.diff(cuts[alone]) > 1) + 1):
                 behind = int(known[1 - k, known[k] > cuts[ranks[:1]].sum()].min(initial=beyond))
-                long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
+                moves = here.cuts[cuts[ranks]]
+                turns = np.abs(here.rotary[moves] - here.rotary[np.maximum(moves - 1, 0)]).max(axis=1, initial=0.0) * ARM
+                long = (here.lengths[moves] + turns).sum()  # what rounding adds to a corner is no cut
                 if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
                     found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
     return found, np.array(more, dtype=np.int64).reshape(-1, 2), one_way
@@ -147,14 +149,16 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
 def _deeper(motion: Motion, cuts: Index, other: Motion, there: int, k: int, tolerance: float) -> Found | None:
     """Cuts of the one alone as another depth, where they go on down in a hole that the other has done with."""
     last, behind = other.cuts[there - 1], other.end[other.cuts[there : there + 1]]
-    ends = [np.vstack([motion.start[cuts], motion.end[cuts]]), behind]
-    inside, beyond = ((np.linalg.norm((each - other.end[last])[:, :2], axis=1) <= tolerance).all() for each in ends)
-    deep = other.end[last, 2] - motion.end[cuts, 2].min()
+    tools = motion.tool_along if motion.turns else None
+    along = np.array([0.0, 0.0, 1.0]) if tools is None else tools[cuts[-1]]
+    ways = [each - other.end[last] for each in (np.vstack([motion.start[cuts], motion.end[cuts]]), behind)]
+    inside, beyond = ((np.linalg.norm(way - np.outer(way @ along, along), axis=1) <= tolerance).all() for way in ways)
+    deep = -float((ways[0] @ along).min())
     if motion.path.lathe or not inside or (beyond and len(behind)) or deep <= tolerance:
         return None
-    sides = [(int(motion.row[cuts[-1]]), f"Z{figure(other.end[last, 2] - deep, 4)}")]
-    sides.insert(1 - k, (int(other.row[last]), f"Z{figure(other.end[last, 2], 4)}"))
-    return Found("depth", (sides[0][0], sides[1][0]), float(deep), "mm", (sides[0][1], sides[1][1]))
+    rows = [int(motion.row[cuts[-1]])]
+    rows.insert(1 - k, int(other.row[last]))
+    return Found("depth", (rows[0], rows[1]), deep, "mm", ("", ""))
 
 
 def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: float) -> bool:
@@ -290,28 +294,19 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
         tips = np.stack(lift, axis=1)[mask]
-        said = partial(_off_table, tips, tolerance, partial(_tilts, one, p[mask], other, q[mask], leans[mask]))
+        said = partial(_off_table, tips, tolerance, partial(_leans, one, p[mask], other, q[mask], leans[mask]))
         for each in grouped(kind, one, i[mask], other, j[mask], said, off[mask]):
             found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 
-def _tilts(one: Motion, i: Index, other: Motion, j: Index, leans: Mask, k: int) -> tuple[str, str] | None:
-    """How the tools stand at the end of the blocks of two moves, in words, where they lean from each other."""
-    if not leans[k]:
-        return None
-    paths, moves = (one.path, other.path), (one.row[i[k]], other.row[j[k]])
-    rows = [int(np.searchsorted(path.step, path.step[row], "right")) - 1 for path, row in zip(paths, moves)]
-    a, b = (path.directions[row] for path, row in zip(paths, rows))
-    turned = np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
-    angles = (zip("ABC", np.degrees(path.rotary[row]).tolist()) for path, row in zip(paths, rows))
-    here, there = (" ".join(f"{name}{figure(angle)}" for name, angle in each if angle) or "upright" for each in angles)
-    return f"tool {here}", f"{there}, tilted otherwise by {figure(float(turned), 3)}°" if turned > 0 else there
+def _leans(one: Motion, i: Index, other: Motion, j: Index, leans: Mask, k: int) -> tuple[str, str] | None:
+    return tilts(one, int(i[k]), other, int(j[k])) if leans[k] else None
 
 
-def _off_table(tips: Array, tolerance: float, tilts: Callable[[int], tuple[str, str] | None], k: int) -> tuple[str, str]:
+def _off_table(tips: Array, tolerance: float, leaning_at: Callable[[int], tuple[str, str] | None], k: int) -> tuple[str, str]:
     """How the tools lean, else how much higher than programmed their tips (k, 2) are, in words, where that is not the same."""
-    if (leans := tilts(k)) is not None:
+    if (leans := leaning_at(k)) is not None:
         return leans
     if abs(tips[k, 0] - tips[k, 1]) <= tolerance:
         return "", ""

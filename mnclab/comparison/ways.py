@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mnclab.comparison.diff import nearest_of
-from mnclab.comparison.found import RATE, Found, from_where
+from mnclab.comparison.found import RATE, Found, from_where, tilts
 from mnclab.comparison.motion import Motion
-from mnclab.comparison.pairs import Stretch
+from mnclab.comparison.pairs import Stretch, leaning
 from mnclab.geometry.curves import counted
 from mnclab.path.listing import figure, point
 from mnclab.path.toolpath import Array, Index, Kind, Mask
@@ -46,10 +46,15 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     many = a.count[i], b.count[j]
     odd = many[0] != many[1]
     which, rank = counted(np.where(odd, 0, many[0]))
-    ends = [side.end[side.begin[k[which]] + rank] for side, k in ((a, i), (b, j))]
-    odd[which[np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance]] = True
+    at, to = (side.begin[k[which]] + rank for side, k in ((a, i), (b, j)))
+    leans = np.bincount(which, leaning(one, a.rapids[at], other, b.rapids[to]) > tolerance, len(i)) > 0
+    odd[which[np.linalg.norm(a.end[at] - b.end[to], axis=1) > tolerance]] = True
+    some = np.flatnonzero((many[0] > 0) & (many[1] > 0) & (one.turns | other.turns))  # where they go in other steps how they end
+    lasts = (side.rapids[side.begin[k[some]] + side.count[k[some]] - 1] for side, k in ((a, i), (b, j)))
+    leans[some] |= leaning(one, next(lasts), other, next(lasts)) > tolerance
+    odd |= leans
     found = _beyond(a, b, i, j, tolerance)
-    i, j = i[odd], j[odd]
+    i, j, leans = i[odd], j[odd], leans[odd]
     if not len(i):
         return found
     heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
@@ -74,6 +79,8 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
             kind[k], told[k] = _elsewhere(a, here, b, there, tolerance, around, least)
     rest = np.flatnonzero(goes)[MOST:]
     kind[rest] = np.where((b.dip[j[rest]] < a.low[i[rest]] - tolerance) & (not a.lathe), LOWER, ASIDE)
+    stays = a.lathe & (j == len(other.cuts)) & (b.count[j] == 0)  # at the part
+    kind[(leans | stays) & (kind == HIGHER)] = ASIDE
     new = (np.diff(i) != 1) | (np.diff(j) != 1) | (kind[1:] != kind[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
     first = np.flatnonzero(np.append(True, new))
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
@@ -82,6 +89,9 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
         until = a.until(i[k], b, j[k], tolerance)
         if kind[k] == ASIDE or k in deepest or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
             said = a.route(i[k], until), b.route(j[k], until)
+        if leans[k] and kind[k] == ASIDE:
+            at, to = (int(w.rapids[w.begin[n] + min(until, int(w.count[n]) - 1)]) for w, n in ((a, i[k]), (b, j[k])))
+            said = tilts(one, at, other, to)
         ranks = [until, deepest.get(k, until)]
         if kind[k] == LOWER and k not in deepest and b.motion.turns:  # what goes so low, not what turns the tool before it
             z = heights[k, 2:] if lower[k] == down[k] else heights[k, :2]
@@ -297,8 +307,10 @@ class Ways:
     def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
         """How many of the rapids before a cut are those before another cut of the other."""
         many = min(self.count[link], other.count[there])
-        ends = [ways.end[ways.of(k)][:many] for ways, k in ((self, link), (other, there))]
-        return int(np.append(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance, True).argmax())
+        here, near = (ways.begin[k] + np.arange(many) for ways, k in ((self, link), (other, there)))
+        off = np.linalg.norm(self.end[here] - other.end[near], axis=1)
+        leans = leaning(self.motion, self.rapids[here], other.motion, other.rapids[near])
+        return int(np.append(np.maximum(off, leans) > tolerance, True).argmax())
 
     def row(self, link: int, rank: int = 0) -> int:
         """The row of the rapids before a cut by their rank, that of the cut where there are no more."""

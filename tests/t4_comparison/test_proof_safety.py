@@ -225,10 +225,36 @@ def test_along_a_tilted_tool_nothing_goes_sideways():
     assert found.first.kind == "rapid" and "sideways at Z3.759" not in found.sentence and "rapid ends at Z3.759" in found.sentence
 
 
+def test_a_tilted_hole_with_a_peck_more_is_another_depth():
+    """1 mm deeper along the tool."""
+    holes = TILTED.replace("L X+0 Y+0 Z+30 FMAX / L Z-3 F300 / L X+20 / ", HOLES.replace("L Z+50 FMAX", ""))
+    found = klartext(holes.format(-10), holes.format(-11), BIG, "table-ac")
+    assert found.counts == {"depth": 3} and [each.amount for each in found.differences] == [pytest.approx(1)] * 3
+    assert klartext(holes.format(-10), holes.format(-10), BIG, "table-ac").verdict == "same motion"
+
+
+def test_a_tool_that_turns_about_its_tip_is_told():
+    """In a cut, and at rapid, where its shank may meet a clamp."""
+    cut = LEANS.replace("L X+50 B+15 F300", "L X+50 B+15 F300 / L X+50 B+0")
+    found = klartext(LEANS, cut, BIG, "head-bc", allow=HARMLESS)
+    assert found.verdict == "different" and found.counts["geometry"] == 1 and found.first.lines[1] == 9, found
+    rapid = LEANS.replace("L Z+50 FMAX / M129", "L Z+50 B+40 FMAX / M129")
+    (told,) = [each for each in klartext(LEANS, rapid, BIG, "head-bc", allow=HARMLESS).differences if each.kind != "collision"]
+    assert told.kind == "aside" and told.lines[1] == 9 and told.values == ("tool B15", "B40, tilted otherwise by 25°"), told
+
+
+def test_a_tool_that_stays_at_a_turned_part_is_told():
+    turned = "M3\nT1\nS800 G97 G95 F0.25\nG00 X32 Z3\nG01 X14\nZ-25\nX32\n"
+    setup = mnc.Setup(tools={1: mnc.Tool(kind="turning")}, stock=mnc.cylinder(30, -60))
+    found = proof(turned + "G00 Z3\nX60 Z50\nM5\n", turned + "M5\n", setup, controls=("jnc-t01", "jnc-t01"))
+    assert found.counts == {"aside": 1} and not found.harmless
+
+
 def test_a_tilt_is_told_as_one():
     leans = "M128 / L X+0 Y+0 Z+50 A-20 FMAX / L Z-2 F300 / L X+50 F300 / L Z+50 FMAX / M129"
     found = klartext(leans, leans.replace("A-20", "A-21"), BIG, "table-ac")
-    assert found.first.kind == "geometry" and found.first.values == ("tool A-20", "A-21, tilted otherwise by 1°")
+    assert found.first.lines == (6, 6)  # where it is turned
+    assert {each.values for each in found.differences} == {("tool A-20", "A-21, tilted otherwise by 1°")}, found
     found = klartext(TILTED, TILTED.replace("SPB+20", "SPB+21"), BIG, "table-ac")
     heights = [30 * math.cos(math.radians(angle)) for angle in (20, 21)]  # where the swivel has ended, not its first row
     assert [place[2] for place in found.first.places] == [pytest.approx(z, abs=1e-6) for z in heights]
