@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from mnclab.comparison.diff import nearest_of, strokes_of
-from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of
-from mnclab.comparison.motion import NO_WAY, Motion
+from mnclab.comparison.found import NONE, RATE, Found, from_where, grouped, of_contour, rows_of, tilts
+from mnclab.comparison.motion import ARM, NO_WAY, Motion
 from mnclab.comparison.pairs import Pairs, Stretch, alongside, apart, leaning, one_swing, paired, same_places
 from mnclab.comparison.ways import Around, links, of_dwells, of_links
 from mnclab.path.listing import figure
 from mnclab.path.places import points_at
-from mnclab.path.toolpath import Array, Index, Kind, Toolpath
+from mnclab.path.toolpath import Array, Index, Kind, Mask, Toolpath
 from mnclab.text.alarm import several
 
 ROUGH = 0.02  # of a way: how far apart the tool may be on two that are divided otherwise
@@ -40,7 +40,9 @@ def differences(one: Motion, other: Motion, tolerance: float, around: Around) ->
     a, b = np.unique(np.hstack([(i, j), *within]), axis=1)
     found += _of_settings(one, other, a, b, tolerance)
     between = links(one, other, i, j, parts)
-    found += of_links(one, other, *between, tolerance, around)
+    told = {(each.kind, each.rows[1]) for each in found}  # a cut of the one that the other goes at rapid is not told again
+    ways = of_links(one, other, *between, tolerance, around)
+    found += [each for each in ways if (each.kind, each.rows[1]) not in told]
     found += of_dwells(one, other, *between, parts)
     found += _left_over(one, other)
     found = [of_contour(each, one, other, tolerance) if each.kind in CUTS else each for each in found]
@@ -89,12 +91,12 @@ def _of_stretches(
         begun = np.linalg.norm(one.start[one.cuts[a[p]]] - other.start[other.cuts[b[q]]], axis=1)
         fits = np.maximum(apart(one, one.cuts[a[p]], other, other.cuts[b[q]]), begun) <= tolerance
         more += zip(a[p[fits]].tolist(), b[q[fits]].tolist())
-        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits])))
+        lone.append((np.delete(a, p[fits]), np.delete(b, q[fits]), np.stack([a[p[fits]], b[q[fits]]])))
     left = [np.concatenate([np.empty(0, np.int64), *(each[k] for each in lone)]) for k in (0, 1)]
     moved = _elsewhere(one, left[0], other, left[1], tolerance)
     found += grouped("order", one, moved[:, 0], other, moved[:, 1], lambda k: ("here", "at another place in the order"))
     more += map(tuple, moved.tolist())
-    for (a, b), (_, to_i, _, to_j) in zip(lone, odd):
+    for (a, b, sure), (_, to_i, _, to_j) in zip(lone, odd):
         a, b = np.setdiff1d(a, moved[:, 0]), np.setdiff1d(b, moved[:, 1])
         if min(len(a), len(b)) == 1 and max(len(a), len(b)) > CHAIN:  # an arc, say, and the chords in its place
             rows = rows_of(one, int(a[0]), other, int(b[0]))
@@ -107,11 +109,14 @@ def _of_stretches(
         p, q = alongside(one, a, other, b, tolerance)
         found += _not_alike(one, a[p], other, b[q], tolerance)
         more += zip(a[p].tolist(), b[q].tolist())
-        for k, cuts, here, there, met, beyond in ((0, a, one, other, (p, b[q]), to_j), (1, b, other, one, (q, a[p]), to_i)):
-            alone = np.delete(np.arange(len(cuts)), met[0])
+        known = np.hstack([sure, [a[p], b[q]]])
+        for k, cuts, here, there, met, beyond in ((0, a, one, other, p, to_j), (1, b, other, one, q, to_i)):
+            alone = np.delete(np.arange(len(cuts)), met)
             for ranks in np.split(alone, np.flatnonzero(np.diff(cuts[alone]) > 1) + 1):
-                behind = [*met[1][np.searchsorted(met[0], ranks[:1].sum()) :].tolist(), beyond][0]
-                long = here.lengths[here.cuts[cuts[ranks]]].sum()  # what rounding adds to a corner is no cut
+                behind = int(known[1 - k, known[k] > cuts[ranks[:1]].sum()].min(initial=beyond))
+                moves = here.cuts[cuts[ranks]]
+                turns = np.abs(here.rotary[moves] - here.rotary[np.maximum(moves - 1, 0)]).max(axis=1, initial=0.0) * ARM
+                long = (here.lengths[moves] + turns).sum()  # what rounding adds to a corner is no cut
                 if long > tolerance and not _begins(here, cuts[ranks], there, behind, tolerance):
                     found.append(_only(here, cuts[ranks], there, behind, k, tolerance))
     return found, np.array(more, dtype=np.int64).reshape(-1, 2), one_way
@@ -122,6 +127,8 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     cuts = motion.cuts[ranks]
     begin = other.cuts[there - 1] + 1 if there else 0
     moves = np.arange(begin, min(other.cuts[there] + 1 if there < len(other.cuts) else len(other), len(other)))
+    if there and (deeper := _deeper(motion, cuts, other, there, k, tolerance)):
+        return deeper
     way, row, said = float(motion.lengths[cuts].sum()), int(other.row[-1]) if len(other) else -1, NONE
     if len(moves):
         off = np.linalg.norm(other.end[moves] - motion.end[cuts[0]], axis=1)
@@ -137,6 +144,21 @@ def _only(motion: Motion, ranks: Index, other: Motion, there: int, k: int, toler
     (one_row, one_said), (other_row, other_said) = both[::-1] if k else both
     kind = "rapid" if not k and said == "at rapid" else "geometry"  # what one cuts the other goes at rapid
     return Found(kind, (one_row, other_row), way, "mm", (one_said, other_said), len(cuts))
+
+
+def _deeper(motion: Motion, cuts: Index, other: Motion, there: int, k: int, tolerance: float) -> Found | None:
+    """Cuts of the one alone as another depth, where they go on down in a hole that the other has done with."""
+    last, behind = other.cuts[there - 1], other.end[other.cuts[there : there + 1]]
+    tools = motion.tool_along if motion.turns else None
+    along = np.array([0.0, 0.0, 1.0]) if tools is None else tools[cuts[-1]]
+    ways = [each - other.end[last] for each in (np.vstack([motion.start[cuts], motion.end[cuts]]), behind)]
+    inside, beyond = ((np.linalg.norm(way - np.outer(way @ along, along), axis=1) <= tolerance).all() for way in ways)
+    deep = -float((ways[0] @ along).min())
+    if motion.path.lathe or not inside or (beyond and len(behind)) or deep <= tolerance:
+        return None
+    rows = [int(motion.row[cuts[-1]])]
+    rows.insert(1 - k, int(other.row[last]))
+    return Found("depth", (rows[0], rows[1]), deep, "mm", ("", ""))
 
 
 def _begins(motion: Motion, ranks: Index, other: Motion, there: int, tolerance: float) -> bool:
@@ -266,17 +288,26 @@ def _not_alike(one: Motion, i: Index, other: Motion, j: Index, tolerance: float)
     mill = not (one.path.lathe or other.path.lathe)
     deep = mill & (np.hypot(step[:, 0], step[:, 1]) <= tolerance) & (np.abs(off - step[:, 2]) <= tolerance)
     off = np.where(np.isfinite(off), off, np.linalg.norm(step, axis=1))
+    far = leaning(one, p, other, q)
+    leans = (far > tolerance) & (far >= off - SAME)
     lift = [motion.end[e, 2] - motion.path.end[motion.last[e], 2] for motion, e in ((one, p), (other, q))]
     found = []
     for kind, mask in (("geometry", ~deep), ("depth", deep)):
         tips = np.stack(lift, axis=1)[mask]
-        for each in grouped(kind, one, i[mask], other, j[mask], partial(_off_table, tips, tolerance), off[mask]):
+        said = partial(_off_table, tips, tolerance, partial(_leans, one, p[mask], other, q[mask], leans[mask]))
+        for each in grouped(kind, one, i[mask], other, j[mask], said, off[mask]):
             found.append(each._replace(rows=from_where(one, other, each.rows, tolerance)))
     return found
 
 
-def _off_table(tips: Array, tolerance: float, k: int) -> tuple[str, str]:
-    """How much higher than programmed the tips (k, 2) of both tools are, in words, where that is not the same."""
+def _leans(one: Motion, i: Index, other: Motion, j: Index, leans: Mask, k: int) -> tuple[str, str] | None:
+    return tilts(one, int(i[k]), other, int(j[k])) if leans[k] else None
+
+
+def _off_table(tips: Array, tolerance: float, leaning_at: Callable[[int], tuple[str, str] | None], k: int) -> tuple[str, str]:
+    """How the tools lean, else how much higher than programmed their tips (k, 2) are, in words, where that is not the same."""
+    if (leans := leaning_at(k)) is not None:
+        return leans
     if abs(tips[k, 0] - tips[k, 1]) <= tolerance:
         return "", ""
     words = (f"tip {figure(abs(much), 3)} mm {'higher' if much > 0 else 'lower'} by a delta length" for much in tips[k].tolist())

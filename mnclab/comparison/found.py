@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mnclab.comparison.motion import NO_WAY, Motion
+from mnclab.path.listing import figure
 from mnclab.path.toolpath import Array, Index, Kind, Toolpath
 
 RATE = 0.005  # of a feed, a speed or a dwell: as much goes by rounding in inches
@@ -31,6 +32,17 @@ class Found(NamedTuple):
 def rows_of(one: Motion, i: int, other: Motion, j: int) -> tuple[int, int]:
     """The rows of two cuts by their ranks."""
     return int(one.row[one.cuts[i]]), int(other.row[other.cuts[j]])
+
+
+def tilts(one: Motion, i: int, other: Motion, j: int) -> tuple[str, str]:
+    """How the tools stand at the end of the blocks of two moves, in words, and how far they lean from each other."""
+    paths, moves = (one.path, other.path), (one.row[i], other.row[j])
+    rows = [int(np.searchsorted(path.step, path.step[row], "right")) - 1 for path, row in zip(paths, moves)]
+    a, b = (path.directions[row] for path, row in zip(paths, rows))
+    turned = np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
+    angles = (zip("ABC", np.degrees(path.rotary[row]).tolist()) for path, row in zip(paths, rows))
+    here, there = (" ".join(f"{name}{figure(angle)}" for name, angle in each if angle) or "upright" for each in angles)
+    return f"tool {here}", f"{there}, tilted otherwise by {figure(float(turned), 3)}°" if turned > 0 else there
 
 
 def grouped(

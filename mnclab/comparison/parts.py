@@ -14,6 +14,8 @@ from mnclab.geometry.curves import at_angle, counted
 from mnclab.geometry.regions import Region
 from mnclab.path.toolpath import Array, Kind, Mask
 from mnclab.workpiece.blank import Box, blank
+from mnclab.workpiece.milling.milled import THREADS
+from mnclab.workpiece.milling.tilted import left_out
 from mnclab.workpiece.part.part import Part
 
 GEOMETRIC = ("geometry", "depth", "order", "chords", "lifts", "aside", "nearer", "rapid")
@@ -101,22 +103,32 @@ def part_apart(runs: tuple[Any, Any], motions: tuple[Motion, Motion], tolerance:
             x, y = some[worst[1]].tolist()
             by = f"by {worst[0]:.3f} mm in height" if worst[0] < NOTHING / 2 else "in where there is material"
             return f"the parts differ {by} at X{x:.3f} Y{y:.3f}"
+    for part, motion, k in zip(parts, motions, (0, 1)):
+        if (out := _left_out(part.cutting) & _rows_that_differ(motion, found, k, 0)).any():
+            return f"the parts are not proven to agree: what differs is left out of them ({part.cutting.lines(out)})"
     uncut = _heights(stock if runs[0].stock is None else runs[0].stock, points)
     if not any((each != uncut).any() for each in heights) and not any(part.removed > 0 for part in parts):
         return "neither of them cuts anything of its blank, so the parts prove nothing"
     return ""
 
 
-def _rows_that_differ(motion: Motion, found: list[Found], k: int) -> Mask:
-    """The rows (n,) of the one or the other path where cuts or ways between them are not the same."""
+def _left_out(cutting: Any) -> Mask:
+    """Rows (n,) that are not in a milled part, or not as they cut: the tool turns, it has no body, it cuts a thread."""
+    threads = np.array([tool.kind in THREADS for tool in cutting.tools] or [False])
+    return np.any([cutting.bare, threads[cutting.which] & cutting.cuts, *(rows for rows, _ in left_out(cutting))], axis=0)
+
+
+def _rows_that_differ(motion: Motion, found: list[Found], k: int, more: int = 1) -> Mask:
+    """The rows (n,) of the one or the other path where cuts or ways between them are not the same, and so many `more` cuts."""
     mask = np.zeros(len(motion.path), dtype=bool)
     bounds = np.append(motion.row[motion.cuts], len(mask))
     for each in found:
         if each.kind == "tool":
             mask[:] = True
-        elif each.kind in GEOMETRIC and each.kind != "order" and each.rows[k] >= 0:
+        elif each.kind in GEOMETRIC and (each.kind != "order" or not more) and each.rows[k] >= 0:
             rank = int(np.searchsorted(bounds, each.rows[k], "right"))
-            mask[bounds[max(rank - 2, 0)] : bounds[min(rank + each.moves, len(bounds) - 1)]] = True
+            begin = bounds[max(rank - 2, 0)] if more else each.rows[k]
+            mask[begin : bounds[min(rank + each.moves - 1 + more, len(bounds) - 1)]] = True
     return mask
 
 

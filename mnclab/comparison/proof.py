@@ -8,6 +8,7 @@ rounds corners (G64, cycle 32), how long it takes. Lengths are in mm, feeds in m
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -26,7 +27,7 @@ from mnclab.comparison.ways import Around
 from mnclab.path.corners import Corner
 from mnclab.path.listing import MM, Unit, figure, point, words
 from mnclab.path.toolpath import Kind
-from mnclab.text.alarm import ALARM, Alarm
+from mnclab.text.alarm import ALARM, Alarm, several
 from mnclab.text.given import check_number, choice, shown
 from mnclab.text.tables import Listing, Pictured, html_table, save_as, text_table, write_csv, write_picture
 
@@ -53,6 +54,12 @@ KINDS = {
     "centre": "one says the way of the tool's centre, the other compensates its radius: the same with this tool alone",
     "number": "another tool number, of a tool with the same measures",
 }
+#: What one of a kind is called where they are counted.
+NOUNS = dict(zip(KINDS, (
+    "stop", "collision", "lower rapid", "nearer rapid", "rapid detour", "other cut", "other depth", "other side", "other tool",
+    "other spindle speed", "other feed", "other dwell", "other coolant state", "moved cut", "arc in lines", "other lift",
+    "leftover", "spindle restart", "centre path", "other tool number",
+), strict=True))  # fmt: skip
 MAY_BE_ALLOWED = ("lifts", "chords", "order")
 BESIDE = ("leftovers", "restart", "centre", "number")  # told, but no motion
 #: With one of these the part is not the same, even where the sweep of the tool says so: a tool breaks, a clamp is hit.
@@ -137,9 +144,10 @@ class Proof(Pictured, Listing):
 
     @property
     def first(self) -> Difference | None:
-        """The first place where they differ and it is not harmless, in the order of the motion; of harmless ones the first."""
-        serious = (each for each in self.differences if not each.harmless and each.kind not in BESIDE)
-        return next(serious, next(iter(self.differences), None))
+        """The first place where they differ, in the order of the motion: of what could hurt, else of lifts, else of what was
+        allowed, else of what is no motion. Where a unit was mistaken lifts are as wrong as all."""
+        found, late = self.differences, () if self.scale else ("lifts",)
+        return min(found, key=lambda each: (each.kind in BESIDE, each.harmless, each.kind in late), default=None)
 
     @property
     def zeros(self) -> str:
@@ -165,7 +173,7 @@ class Proof(Pictured, Listing):
     @property
     def sentence(self) -> str:
         """The verdict with its reasons, and the first place where they differ."""
-        counts = ", ".join(f"{many} {kind}" for kind, many in self.counts.items())
+        counts = ", ".join(several(many, NOUNS[kind]) for kind, many in self.counts.items())
         if not any(path.is_motion.any() for path in self.paths) and not counts:
             return "not proven: there is no motion in either"
         if self.verdict == SAME_MOTION:
@@ -225,9 +233,9 @@ class Proof(Pictured, Listing):
         return save_as(self, path, writers, "cannot write a proof as {}", **options)
 
     def _repr_html_(self) -> str:
-        shown = Listing._repr_html_(self)
+        above, end, shown = Listing._repr_html_(self).partition("</p>")
         two = html_table(("first difference", *self.names), _two(self.first)) if self.first else ""
-        return shown.replace("</p>", f"</p>{two}", 1)
+        return re.sub("`([^`]*)`", r"<code>\1</code>", above) + end + two + shown
 
 
 def _two(first: Difference) -> list[tuple[str, str, str]]:
@@ -245,7 +253,7 @@ def _write_page(proof: Proof, path: Path) -> None:
     """A page that needs nothing else, with the picture of the first difference."""
     picture = proof.plot()._repr_mimebundle_()["text/html"] if proof.first is not None else ""
     title = escape(f"{proof.names[0]} and {proof.names[1]}: {proof.verdict}")
-    style = "body{font-family:sans-serif;margin:2em;max-width:75em}td,th{padding:2px 8px;text-align:left}"
+    style = "body{font-family:sans-serif;margin:2em;max-width:75em}table,img{margin:1em 0}td,th{padding:2px 8px;text-align:left}"
     page = f"<!doctype html><html lang=en><meta charset=utf-8><title>{title}</title><style>{style}</style>"
     path.write_text(f"{page}<h1>{title}</h1>{proof._repr_html_()}{picture}</html>\n", "utf-8")
 

@@ -7,14 +7,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mnclab.comparison.diff import nearest_of
-from mnclab.comparison.found import RATE, Found, from_where
+from mnclab.comparison.found import RATE, Found, from_where, tilts
 from mnclab.comparison.motion import Motion
-from mnclab.comparison.pairs import Stretch
+from mnclab.comparison.pairs import Stretch, leaning
 from mnclab.geometry.curves import counted
 from mnclab.path.listing import figure, point
 from mnclab.path.toolpath import Array, Index, Kind, Mask
 
 SECONDS = 0.001
+SLOPED = 0.1  # Z of a direction: along a tool that leans more heights say little
 LOWER, NEARER, ASIDE, HIGHER = range(4)
 OF_WAYS = ("rapid", "nearer", "aside", "lifts")  # their kinds
 MOST = 2000  # ways that are looked at one by one
@@ -45,10 +46,15 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     many = a.count[i], b.count[j]
     odd = many[0] != many[1]
     which, rank = counted(np.where(odd, 0, many[0]))
-    ends = [side.end[side.begin[k[which]] + rank] for side, k in ((a, i), (b, j))]
-    odd[which[np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance]] = True
+    at, to = (side.begin[k[which]] + rank for side, k in ((a, i), (b, j)))
+    leans = np.bincount(which, leaning(one, a.rapids[at], other, b.rapids[to]) > tolerance, len(i)) > 0
+    odd[which[np.linalg.norm(a.end[at] - b.end[to], axis=1) > tolerance]] = True
+    some = np.flatnonzero((many[0] > 0) & (many[1] > 0) & (one.turns | other.turns))  # where they go in other steps how they end
+    lasts = (side.rapids[side.begin[k[some]] + side.count[k[some]] - 1] for side, k in ((a, i), (b, j)))
+    leans[some] |= leaning(one, next(lasts), other, next(lasts)) > tolerance
+    odd |= leans
     found = _beyond(a, b, i, j, tolerance)
-    i, j = i[odd], j[odd]
+    i, j, leans = i[odd], j[odd], leans[odd]
     if not len(i):
         return found
     heights = np.stack([a.low[i], b.low[j], a.last[i], b.last[j]], axis=1)
@@ -60,21 +66,37 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
     off = np.maximum(beside, np.abs(_gap(heights[:, ::2], heights[:, 1::2])).max(axis=1))
     kind = np.where((lower > tolerance) & (not a.lathe), LOWER, HIGHER)
     told: dict[int, tuple[float, tuple[str, str]]] = {}
+    deepest: dict[int, int] = {}
     bent = (beside > tolerance) | (a.turns[i] > 1) | (b.turns[j] > 1)
-    goes = (kind == HIGHER) & (a.lathe | (bent & np.isfinite(b.low[j])))
+    goes = (kind == HIGHER) & (a.lathe | (bent & np.isfinite(b.low[j])) | np.isfinite(b.dip[j]))
     least = a.least(around) if goes.any() else np.empty(0)
     for k in np.flatnonzero(goes)[:MOST].tolist():
-        kind[k], told[k] = _elsewhere(a, int(i[k]), b, int(j[k]), tolerance, around, least)
-    kind[np.flatnonzero(goes)[MOST:]] = ASIDE
+        here, there = int(i[k]), int(j[k])
+        sunk, place = (0.0, 0) if a.lathe else b.below(there, a, here, tolerance)
+        if sunk > tolerance:
+            kind[k], lower[k], deepest[k] = LOWER, sunk, place
+        else:
+            kind[k], told[k] = _elsewhere(a, here, b, there, tolerance, around, least)
+    rest = np.flatnonzero(goes)[MOST:]
+    kind[rest] = np.where((b.dip[j[rest]] < a.low[i[rest]] - tolerance) & (not a.lathe), LOWER, ASIDE)
+    stays = a.lathe & (j == len(other.cuts)) & (b.count[j] == 0)  # at the part
+    kind[(leans | stays) & (kind == HIGHER)] = ASIDE
     new = (np.diff(i) != 1) | (np.diff(j) != 1) | (kind[1:] != kind[:-1]) | (heights[1:] != heights[:-1]).any(axis=1)
     first = np.flatnonzero(np.append(True, new))
     for k, moves in zip(first.tolist(), np.diff(np.append(first, len(i))).tolist()):
         amount, said = float(lower[k] if kind[k] == LOWER and lower[k] > 0 else off[k]), (a.said(i[k]), b.said(j[k]))
         amount, said = told[k] if k in told and (kind[k] != HIGHER or a.lathe) else (amount, said)
         until = a.until(i[k], b, j[k], tolerance)
-        if kind[k] == ASIDE or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
+        if kind[k] == ASIDE or k in deepest or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
             said = a.route(i[k], until), b.route(j[k], until)
-        rows = from_where(one, other, (a.row(i[k], until), b.row(j[k], until)), tolerance)
+        if leans[k] and kind[k] == ASIDE:
+            at, to = (int(w.rapids[w.begin[n] + min(until, int(w.count[n]) - 1)]) for w, n in ((a, i[k]), (b, j[k])))
+            said = tilts(one, at, other, to)
+        ranks = [until, deepest.get(k, until)]
+        if kind[k] == LOWER and k not in deepest and b.motion.turns:  # what goes so low, not what turns the tool before it
+            z = heights[k, 2:] if lower[k] == down[k] else heights[k, :2]
+            ranks = [ways.reaching(link[k], until, height + tolerance) for ways, link, height in zip((a, b), (i, j), z)]
+        rows = from_where(one, other, (a.row(i[k], ranks[0]), b.row(j[k], ranks[1])), tolerance)
         found.append(Found(OF_WAYS[kind[k]], rows, amount if np.isfinite(amount) else np.nan, "mm", said, moves))
     return found
 
@@ -127,13 +149,14 @@ def _gap(a: Array, b: Array) -> Array:
 
 
 def _beyond(a: Ways, b: Ways, i: Index, j: Index, tolerance: float) -> list[Found]:
-    """Of ways that are nobody's counterpart: whether those of b go sideways lower than all of a."""
-    rest = [np.setdiff1d(np.flatnonzero(np.isfinite(side.low)), k) for side, k in ((a, i), (b, j))]
+    """Of ways that are nobody's counterpart: whether those of b go sideways or dip lower than all of a goes sideways."""
+    deep = np.minimum(b.low, b.dip)
+    rest = [np.setdiff1d(np.flatnonzero(np.isfinite(low)), k) for low, k in ((a.low, i), (deep, j))]
     if not len(rest[1]):
         return []
-    deepest = int(rest[1][b.low[rest[1]].argmin()])
+    deepest = int(rest[1][deep[rest[1]].argmin()])
     highest = int(rest[0][a.low[rest[0]].argmin()] if len(rest[0]) else a.low.argmin())
-    lower = float(_gap(a.low[highest], b.low[deepest]))
+    lower = float(_gap(a.low[highest], deep[deepest]))
     if not lower > tolerance:
         return []
     rows = a.row(highest, a.lowest(highest)), b.row(deepest, b.lowest(deepest))
@@ -141,9 +164,20 @@ def _beyond(a: Ways, b: Ways, i: Index, j: Index, tolerance: float) -> list[Foun
     return [Found("rapid", rows, amount, "mm", (a.said(highest), b.said(deepest)))]
 
 
+def _along(motion: Motion) -> Array:
+    """The direction (m, 3) along which moves go up and down: Z, but for those that keep a tilted tool that of the tool."""
+    found = np.tile([0.0, 0.0, 1.0], (len(motion), 1))
+    if motion.turns and (tool := motion.tool_along) is not None:
+        keeps = (np.abs(np.diff(tool, axis=0, prepend=tool[:1])).max(axis=1) < 1e-9) & (tool[:, 2] > SLOPED)
+        found[keeps] = tool[keeps]
+    return found
+
+
 class Ways:
     """The rapids between cuts, by the rank of the cut behind (n + 1,): their `count`, the lowest height at which they go sideways
-    (`low`), the highest of all (`high`) and the `last`, and the `box` (n + 1, 4) that they keep in X and Y."""
+    (`low`) and to which they go down only to rise or go on from there (`dip`), the highest of all (`high`) and the `last`, where
+    the program ends that of its end, and the `box` (n + 1, 4) that they keep in X and Y. Of a tool that is tilted up and down are
+    along it."""
 
     def __init__(self, motion: Motion, tolerance: float) -> None:
         self.motion, self.lathe = motion, motion.path.lathe
@@ -155,7 +189,10 @@ class Ways:
         start = motion.start[self.rapids]
         if len(self.rapids) and self.rapids[0] == 0:  # from where the machine stands
             start[0] = end[0]
-        self.aside = aside = np.hypot(*(end - start)[:, :2].T) > tolerance
+        self.along = along = _along(motion)
+        way = end - start
+        way -= np.einsum("ij,ij->i", way, along[self.rapids])[:, None] * along[self.rapids]
+        self.aside = aside = np.linalg.norm(way, axis=1) > tolerance
         self.heights = np.minimum(start[:, 2], end[:, 2])
         self.start, self.turns = start, np.bincount(link[aside], minlength=n)
         self.low, self.high = np.full(n, np.inf), np.full(n, -np.inf)
@@ -163,6 +200,10 @@ class Ways:
         np.maximum.at(self.high, link, np.maximum(start[:, 2], end[:, 2]))
         self.last = np.full(n, np.inf)
         self.last[link] = end[:, 2]
+        self.last[-1] = motion.end[-1, 2] if len(motion) else np.inf
+        self.dips = ~aside & (end[:, 2] < start[:, 2] - tolerance) & np.append(link[1:] == link[:-1], False)[: len(link)]
+        self.dip = np.full(n, np.inf)
+        np.minimum.at(self.dip, link[self.dips], end[self.dips, 2])
         self.box = np.zeros((n, 4))
         some = np.flatnonzero(self.count)
         if len(some):
@@ -205,7 +246,7 @@ class Ways:
         """Places (m, 3) of the ways sideways before a cut (on a lathe of all) that those before a cut of the other do not go
         over, and how far they are beside."""
         here, near = self.of(link), other.of(there)
-        some = np.arange(here.start, here.stop)[self.aside[here] | self.lathe]
+        some = np.arange(here.start, here.stop)[(self.aside | self.dips)[here] | self.lathe]
         seen = np.array([1.0, 0.0, 1.0] if self.lathe else [1.0, 1.0, 0.0])
         places = (self.start[some] + SHARES * (self.end[some] - self.start[some])).reshape(-1, 3)
         if not other.count[there]:
@@ -214,6 +255,30 @@ class Ways:
         beside = np.linalg.norm(places * seen - close, axis=1)
         return places[beside > tolerance], float(beside.max(initial=0.0))
 
+    def reaching(self, link: int, rank: int, height: float) -> int:
+        """The first of the rapids before a cut from one of them on that ends as low, by its rank, else that one."""
+        return rank + int(np.append(self.end[self.of(link)][rank:, 2] <= height, False).argmax())
+
+    def below(self, link: int, other: Ways, there: int, tolerance: float) -> tuple[float, int]:
+        """How much lower than those before a cut of the other the ways before a cut are at a place, seen from above, and which of
+        them is, by its rank; where the other does not go lower than all of its own."""
+        here, near = self.of(link), other.of(there)
+        some = np.arange(here.start, here.stop)[(self.aside | self.dips)[here]]
+        start, way = other.start[near], other.end[near] - other.start[near]
+        long = np.einsum("ij,ij->i", way[:, :2], way[:, :2])
+        found, own = (-np.inf, 0), min(other.low[there], other.last[there])
+        for k in np.array_split(some, max(len(SHARES) * len(some) * len(way) // PLACES, 1)):
+            places = (self.start[k] + SHARES * (self.end[k] - self.start[k])).reshape(-1, 1, 3)
+            share = np.einsum("mki,ki->mk", (places - start)[:, :, :2], way[:, :2]) / np.maximum(long, 1e-12)
+            share = np.where(long > tolerance**2, share.clip(0.0, 1.0), way[:, 2] < 0)  # of one straight down its end
+            close = start + share[:, :, None] * way
+            off = np.linalg.norm((places - close)[:, :, :2], axis=2)
+            floor = np.where(off <= tolerance, close[:, :, 2], np.inf).min(axis=1, initial=np.inf)
+            lower = (np.where(np.isfinite(floor), floor, own) - places[:, 0, 2]).reshape(-1, len(k)).max(axis=0)
+            if lower.max(initial=-np.inf) > found[0]:
+                found = float(lower.max()), int(k[lower.argmax()]) - here.start
+        return found
+
     def least(self, around: Around) -> Array:
         """How near (k,) any rapid comes to what stands on the machine."""
         shares = np.linspace(0.0, 1.0, min(max(PLACES // max(len(self.rapids), 1), 2), len(SHARES)))[:, None, None]
@@ -221,16 +286,17 @@ class Ways:
         return around.far(places, np.tile(self.motion.radius[self.rapids], len(shares)))
 
     def lowest(self, link: int) -> int:
-        """Which of the rapids before a cut goes sideways the lowest, by its rank."""
+        """Which of the rapids before a cut goes sideways or dips the lowest, by its rank."""
         here = self.of(link)
-        return int(np.where(self.aside[here], self.heights[here], np.inf).argmin()) if self.count[link] else 0
+        return int(np.where((self.aside | self.dips)[here], self.heights[here], np.inf).argmin()) if self.count[link] else 0
 
     def said(self, link: int) -> str:
         """What they do, in words."""
         if not self.count[link]:
             return "no rapid"
-        low, last = float(self.low[link]), float(self.last[link])
-        return f"sideways at Z{figure(low, 3)}, " * bool(np.isfinite(low)) + f"rapid ends at Z{figure(last, 3)}"
+        heights = {"sideways at": float(self.low[link]), "down to": float(self.dip[link])}
+        said = [f"{name} Z{figure(z, 3)}" for name, z in heights.items() if np.isfinite(z)]
+        return ", ".join([*said, f"rapid ends at Z{figure(float(self.last[link]), 3)}"])
 
     def route(self, link: int, rank: int) -> str:
         """Where they go from one of them on."""
@@ -241,8 +307,10 @@ class Ways:
     def until(self, link: int, other: Ways, there: int, tolerance: float) -> int:
         """How many of the rapids before a cut are those before another cut of the other."""
         many = min(self.count[link], other.count[there])
-        ends = [ways.end[ways.of(k)][:many] for ways, k in ((self, link), (other, there))]
-        return int(np.append(np.linalg.norm(ends[0] - ends[1], axis=1) > tolerance, True).argmax())
+        here, near = (ways.begin[k] + np.arange(many) for ways, k in ((self, link), (other, there)))
+        off = np.linalg.norm(self.end[here] - other.end[near], axis=1)
+        leans = leaning(self.motion, self.rapids[here], other.motion, other.rapids[near])
+        return int(np.append(np.maximum(off, leans) > tolerance, True).argmax())
 
     def row(self, link: int, rank: int = 0) -> int:
         """The row of the rapids before a cut by their rank, that of the cut where there are no more."""

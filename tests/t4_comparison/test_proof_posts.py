@@ -273,7 +273,7 @@ FAULTS = {
         ([("39 TOOL CALL 2", "39 TOOL CALL 1")], "tool", "43 L X+20"),
         ([("5 TOOL CALL 1 Z S3180", "5 TOOL CALL 1 Z S3180 DR+0.2")], "tool", "10 L Z-3"),
         ([("5 TOOL CALL 1 Z S3180", "5 TOOL CALL 1 Z S3180 DL-0.05")], "depth", "10 L Z-3"),
-        ([("BRACKET MM", "BRACKET INCH"), ("END PGM BRACKET MM", "END PGM BRACKET INCH")], "lifts", "7 L X-15"),
+        ([("BRACKET MM", "BRACKET INCH"), ("END PGM BRACKET MM", "END PGM BRACKET INCH")], "geometry", "10 L Z-3"),
         ([("9 L Z+2 FMAX", "9 L Z-1 FMAX")], "rapid", "9 L Z-1"),
         ([("Q211=0", "Q211=0.5")], "dwell", "43 L X+20"),
         ([("44 L X+60 FMAX M99", "44 L X+60.02 FMAX M99")], "geometry", "44 L X+60.02"),

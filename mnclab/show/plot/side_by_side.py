@@ -364,4 +364,4 @@ def plot_proof(found: Any, number: int | None = None, view: str = "auto", size: 
     marks = [(mark, place) for mark, place in zip(named, places) if place is not None]
     joined = len(marks) == 2 and one.kind in ("geometry", "depth", "side")  # of rapids it would look like one
     gap = [place for _, place in marks] if joined else []
-    return laid_over(lines, marks, gap, views, low, high, one.sentence, one.sentence, size)
+    return laid_over(lines, marks, gap, views, low, high, one.sentence.replace("`", ""), one.sentence, size)
