@@ -310,6 +310,25 @@ def test_a_datum_that_leans_leans_the_plane() -> None:
     assert level.toolpath.end[-1] == pytest.approx(leans @ (3, 4, 5))
 
 
+ZERO = "CYCL DEF 19.0 P\nCYCL DEF 19.1 A+0 B+0 C+0"
+
+
+@pytest.mark.parametrize("kinematics", MACHINES)
+@pytest.mark.parametrize("ends", [
+    "PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN FMAX", "PLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE F900",
+    "PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY\nL {}", f"{ZERO}\nL {{}}", f"{ZERO} F900 ABST50",
+    f"{ZERO} F900 ABST50\nCYCL DEF 19.0 P\nCYCL DEF 19.1",
+])  # fmt: skip
+def test_three_angles_of_zero_are_the_rotary_axes_at_zero(kinematics: str, ends: str) -> None:
+    """The plane before left C where Z of the plane leaves it free: on the part X Y Z are those of the program all the same."""
+    first, last = ("A", "C") if kinematics == "table-ac" else ("B", "C")
+    turned = ends.format(f"{first}+Q{120 + 'ABC'.index(first)} {last}+Q122 FMAX")
+    found = run(f"L C+90 FMAX\nPLANE SPATIAL SPA+20 SPB+20 SPC+0 TURN FMAX\nL X+1 Y+1 Z+50 FMAX\n{turned}\n"
+                "L X+12 Y-7 Z+9 FMAX", kinematics=kinematics)  # fmt: skip
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx([12, -7, 9])
+    assert np.array(found.axes())[-1] == pytest.approx([12, -7, 89, 0, 0, 0])
+
+
 @pytest.mark.parametrize("leads", ["", "FUNCTION TCPM F TCP AXIS POS\n"])
 def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
     """C_OFFS 20: the part was measured with C at 20 of the machine, so the plane lies turned by 20 on the part, and C shows 90
