@@ -101,14 +101,19 @@ def direction(m: Machine) -> Array:
 
 def leaning(m: Machine) -> float:
     """By how much the tool leans from Z of the active coordinates, degrees, 0 where that is too little to count: as the axes
-    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it."""
+    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it.
+
+    A measured axis, off by an angle from where it was built, makes the tool lean by twice that: no program leans it so."""
     if m.tables.kinematics is None:
         return 0.0
+    built = {axis.name: axis.direction for axis in m.setup.kinematics.sequence} if m.setup.kinematics is not None else {}
+    pairs = [(axis.direction, built.get(axis.name, axis.direction)) for axis in m.tables.kinematics.sequence]
+    least = SQUARE + 2 * sum(float(np.linalg.norm(np.asarray(now) - np.asarray(then))) for now, then in pairs)
     tool, found = direction(m), 0.0
     for frame in (m.matrix, m.frames.matrix) if m.reckoned is not None and any(m.reckoned) else (m.matrix,):
         up = frame[:3, 2]
         found = max(found, math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool)))
-    return math.degrees(found) if found > SQUARE else 0.0
+    return math.degrees(found) if found > least else 0.0
 
 
 def lean_to_tell(m: Machine) -> float:
