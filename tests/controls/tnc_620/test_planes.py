@@ -346,6 +346,21 @@ def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
     assert np.array(run(level, kinematics="table-ac", presets=presets).axes())[-1, 5] == pytest.approx(35)
 
 
+@pytest.mark.parametrize(("again", "r"), [
+    ("PLANE RELATIV SPB+25 TURN FMAX", about("C", 30) @ about("B", 45)),
+    ("PLANE SPATIAL SPA+0 SPB+45 SPC+30 TURN FMAX", about("C", 30) @ about("B", 45)),
+])  # fmt: skip
+def test_a_shift_within_the_plane_moves_the_new_plane(again: str, r: np.ndarray) -> None:
+    """11.9: a shift before the tilt moves the datum that it turns about, one behind it the tilted system; it is told of."""
+    shift = "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+5\nCYCL DEF 7.2 Y-3\n"
+    first = "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+50\nPLANE SPATIAL SPA+0 SPB+20 SPC+30 TURN FMAX\n"
+    goal = f"{again}\nL X+1 Y+2 Z+3 FMAX"
+    found = run(f"{first}{shift}{goal}", kinematics="table-ac")
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx(r @ (6, -1, 3) + (50, 0, 0))
+    assert "shift defined in that act in the new one" in found.alarms[0].message
+    assert not run(f"{first}{goal}", kinematics="table-ac").alarms and not run(f"{first}{shift}L X+1 FMAX").alarms
+
+
 def test_shift_rotation_and_mirror_behind_the_tilt() -> None:
     found = run(
         "PLANE SPATIAL SPA+0 SPB+40 SPC+0 TURN FMAX\nTRANS DATUM AXIS X+10 Y-5\nCYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+30\n"

@@ -42,6 +42,7 @@ SETTINGS = (
     ),
 )  # fmt: skip
 RESULTS = ("Q120", "Q121", "Q122")
+REVERSE = "reset in the reverse order of definition"
 LEVEL = 1e-12  # by which Z of a plane may differ from Z before it
 STILL: dict[str, Any] = {"default": None, "default_means": "they are not moved"}
 tilt = partial(angle, default=None, default_means="as it is")
@@ -117,7 +118,7 @@ def over(m: Machine) -> Iterator[Step]:
     yield Write("memory", {}, "tilt_angles")
     if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):
         sentence = f"is switched off, and {', '.join(left)} defined behind it act in the untilted system"
-        yield Say(sentence, "reset in the reverse order of definition")
+        yield Say(sentence, REVERSE)
 
 
 SHORTER = Choice()
@@ -145,6 +146,8 @@ def begin_by_axes(m: Machine, to: Place) -> Generator[Step, Any, Place]:
 
 
 def _begin(m: Machine, matrix: Matrix, angles: Place, to: Place, by_axes: bool) -> Generator[Step, Any, Place]:
+    if (left := chain.tilted(m)) and not np.allclose(matrix, m.frames[chain.TILT]):
+        yield Say(f"tilts about the datum before the plane, and {', '.join(left)} defined in that act in the new one", REVERSE)
     yield Write("memory", dict(zip("abc", angles, strict=True)), "tilt_angles")
     yield Write("memory", by_axes, "tilt_by_axes")
     yield Write("frame", matrix, chain.TILT)

@@ -104,7 +104,8 @@ def plane_points(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("PLANE RELATIV,", "Tilted plane turned further", takes=f"SPA SPB SPC {WHICH}", source=SOURCE)
 def plane_relative(m: Machine, words: Words) -> None:
-    """Turns the active plane about one of its own axes."""
+    """Turns the active plane about one of its own axes, and about the datum that it has: a shift defined in the plane moves the
+    tilted system (11.9), so it acts in the new one as it does where SPATIAL or cycle 19 are defined anew; a warning says so."""
     word = one_of(m, words, ANGLES, "one angle")
     if word is None:
         m.alarm("PLANE RELATIV needs SPA, SPB or SPC")
