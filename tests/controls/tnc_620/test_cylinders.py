@@ -434,7 +434,8 @@ def test_on_a_machine_whose_axes_are_known(made: str, depths: tuple[int, ...]) -
 
 @pytest.mark.parametrize(("kinematics", "before", "message"), [
     ("head-bc", "PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN FMAX",
-     "needs a rotary table that turns the cylinder: the machine has C and B in the head, C from -540 to 540°, B from -110 to 110°"),
+     "needs a rotary table that turns the cylinder: the machine has "
+     "C and B in the head, C from -540 to 540°, B from -110 to 110°"),
     ("table-ac", "L A+90 C+0 FMAX", "needs the plane tilted as the rotary axes stand, A90 C0: "
      "write PLANE SPATIAL before, or turn them back"),
     ("head-b-table-c", "L C+0 FMAX",

@@ -113,8 +113,8 @@ DRILL = (
     ("head-bc", "PLANE RESET TURN FMAX\nL C+180 FMAX\n", False), ("table-ac", "L A+0.1 C+0 FMAX\n", True),
 ])  # fmt: skip
 def test_what_was_measured_does_not_lean_the_tool(name, back, leans):
-    """C is 2e-4 rad off and the tool leans by twice that behind half a turn of it, in 3D-ROT of the cycle or by a head: no program
-    has leant it. One that does is told of as before."""
+    """C is 2e-4 rad off and the tool leans by twice that behind half a turn of it, in 3D-ROT of the cycle or by a head: no
+    program has leant it. One that does is told of as before."""
     believed = kinematics_of(name)
     askew = believed.axis("C")
     true = believed.with_axis(replace(askew, direction=(2e-4, 0, 1)))

@@ -196,8 +196,8 @@ def test_the_tool_turns_in_the_plane_of_its_directions() -> None:
 
 @pytest.mark.parametrize("machine", MACHINES)
 def test_an_axis_that_is_free_at_the_start_turns_first(machine: str) -> None:
-    """From A0 C0 to the direction Ry(20) Rx(10) Z: C turns to where the way begins, the tip stands; then the tip goes straight and
-    the tool turns in the plane of Z and the last direction."""
+    """From A0 C0 to the direction Ry(20) Rx(10) Z: C turns to where the way begins, the tip stands; then the tip goes straight
+    and the tool turns in the plane of Z and the last direction."""
     found = run("L X+12 Y-7 Z+9 F500\nFUNCTION TCPM F TCP AXIS SPAT PATHCTRL VECTOR\n"
                 "L X+20 Y+5 Z+3 A+10 B+20 C+0 F500", kinematics=machine)  # fmt: skip
     axes = between(found, 4)

@@ -107,13 +107,13 @@ L Y+50
 +L Y+40 R0
 
 ; == begins-with-an-arc like corner
-; 23:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a straight line)
+; 23:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a line)
 @@ 23
 -L X+10 Y+10 RL
 +CR X+75 Y+56 R+18 DR+
 
 ; == half-a-start like corner
-; 24:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a straight line)
+; 24:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a line)
 @@ 23
 -L X+10 Y+10 RL
 -L X+50
