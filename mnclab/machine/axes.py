@@ -101,14 +101,19 @@ def direction(m: Machine) -> Array:
 
 def leaning(m: Machine) -> float:
     """By how much the tool leans from Z of the active coordinates, degrees, 0 where that is too little to count: as the axes
-    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it."""
+    lead it, and in a tilted plane as that lies on the part. A machine without a kinematics does not say it.
+
+    A measured axis, off by an angle from where it was built, makes the tool lean by twice that: no program leans it so."""
     if m.tables.kinematics is None:
         return 0.0
+    built = {axis.name: axis.direction for axis in m.setup.kinematics.sequence} if m.setup.kinematics is not None else {}
+    pairs = [(axis.direction, built.get(axis.name, axis.direction)) for axis in m.tables.kinematics.sequence]
+    least = SQUARE + 2 * sum(float(np.linalg.norm(np.asarray(now) - np.asarray(then))) for now, then in pairs)
     tool, found = direction(m), 0.0
     for frame in (m.matrix, m.frames.matrix) if m.reckoned is not None and any(m.reckoned) else (m.matrix,):
         up = frame[:3, 2]
         found = max(found, math.atan2(float(np.linalg.norm(np.cross(up, tool))), float(up @ tool)))
-    return math.degrees(found) if found > SQUARE else 0.0
+    return math.degrees(found) if found > least else 0.0
 
 
 def lean_to_tell(m: Machine) -> float:
@@ -263,11 +268,16 @@ def swing(
 
     `minutes` the move takes, infinite at rapid; None: as long as the tip needs at `f` mm/min. `below` the tip, mm, is a point
     that stays where it is on the part. The linear axes that lead a tip go no faster than `most` mm/min. `in_plane`: the tool
-    turns in the plane of its directions at both ends, while all axes follow.
+    turns in the plane of its directions at both ends, while all axes follow; an axis that is free at the start turns before.
     """
     kinematics, own = chain(m), m.tool.effective_length
     check_angles(m, to, word)
     before, after = np.array(m.rotary), np.radians(to)
+    free = kinematics.free(direction(m), before) if in_plane else None
+    if free is not None and abs(after[free.number] - before[free.number]) > SAME:  # it turns alone first, the tip stands
+        a, b, c = (to[k] if k == free.number else math.degrees(old) for k, old in enumerate(before.tolist()))
+        turn_axes(m, (a, b, c), math.inf if math.isinf(f if minutes is None else minutes) else None, word, most=most)
+        before = np.array(m.rotary)
     led = m.reckoned is None or below is not None
     length = own + (below or 0.0)
     start, end = led_ends(m, point, below or 0.0) if led else linear_ends(m, kinematics, point)
@@ -292,7 +302,8 @@ def swing(
         if worst <= tolerance or count > MOST:
             break
         if in_plane and worst > max(wider / 2, 2 * tolerance):  # smaller rows come no nearer
-            m.alarm("the rotary axes would have to jump on the way: it leads through a place where one of them is free", word)
+            what = "the rotary axes would have to jump on the way: it leads through a place where one of them is free"
+            m.alarm(what, word, "PATHCTRL AXIS leads them evenly; or turn the free axis before")
         count = int(math.ceil(count * max(math.sqrt(worst / tolerance), 1.01)))
     if count > MOST:
         m.alarm(f"the move turns so far that it needs {count} rows to stay within {tolerance:g} mm, {MOST} are allowed", word)

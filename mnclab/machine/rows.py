@@ -78,6 +78,8 @@ def refuse_large(
             _too_large(m, f"{name} of the tool in the machine", end, "mm")
         if not np.isnan(middle) and not -LARGEST < middle < LARGEST:
             _too_large(m, f"{name} of the centre of the arc in the machine", middle, "mm")
+    if m.recorded_only and math.isnan(angle):
+        m.alarm("the arc has no start: nothing before it in the contour names both coordinates", None, "begin with a line")
     if not -LARGEST < angle < LARGEST:
         _too_large(m, "the angle of the arc", math.degrees(angle), "degrees")
     if LARGEST <= feed < math.inf or feed < LEAST_FEED:

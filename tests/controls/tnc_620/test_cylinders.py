@@ -432,6 +432,23 @@ def test_on_a_machine_whose_axes_are_known(made: str, depths: tuple[int, ...]) -
             assert np.linalg.norm(ways - point, axis=1).min() < 1e-9
 
 
+@pytest.mark.parametrize(("kinematics", "before", "message"), [
+    ("head-bc", "PLANE SPATIAL SPA+0 SPB+90 SPC+0 TURN FMAX",
+     "needs a rotary table that turns the cylinder: the machine has "
+     "C and B in the head, C from -540 to 540°, B from -110 to 110°"),
+    ("table-ac", "L A+90 C+0 FMAX", "needs the plane tilted as the rotary axes stand, A90 C0: "
+     "write PLANE SPATIAL before, or turn them back"),
+    ("head-b-table-c", "L C+0 FMAX",
+     "needs a tool square to the rotary axis C: the spindle axis is not perpendicular to the axis of the rotary table"),
+])  # fmt: skip
+@pytest.mark.parametrize("cycle", [27, 39])
+def test_a_machine_whose_table_cannot_turn_the_cylinder(kinematics: str, before: str, message: str, cycle: int) -> None:
+    """9.1: the cylinder stands on the rotary table, square to the spindle. C of a head swings the tool."""
+    text = program(cycle, "L X+0 Y+0 RL\nL X+20", before=before)
+    (alarm,) = mnc.run(text, "tnc-620", mnc.Setup(tools=TOOLS, kinematics=kinematics)).alarms
+    assert alarm.severity == "alarm" and alarm.message == f"CYCL DEF {cycle} {message}"
+
+
 def test_many_plain_blocks_in_degrees():
     """What is obeyed in bulk elsewhere counts in degrees here, too."""
     contour = "\n".join(f"L X+{k} Y+{k}" for k in range(60))

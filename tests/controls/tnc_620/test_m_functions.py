@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 
+import numpy as np
 import pytest
 
 import mnclab as mnc
@@ -98,6 +99,25 @@ def test_a_rotary_axis_counts_on_from_less_than_a_turn(inside) -> None:
     run = inside("2 L C+370 A+400 FMAX\n3 L X+1 M94 C\n4 L C+15 FMAX")
     degrees = [[round(math.degrees(a)) for a in move.rotary] for move in run.toolpath.motion]
     assert run.ok and degrees == [[400, 0, 370], [400, 0, 10], [400, 0, 15]]
+
+
+@pytest.mark.parametrize(("program", "shown"), [
+    ("L A-90 FMAX\nL X+0 FMAX M94", -90),  # from -120 to 120: 270 would be beyond, and A+0 the long way from there
+    ("L A-90 FMAX\nL X+0 FMAX M94 A M126", -90),
+    ("L A+90 FMAX\nL X+0 FMAX M94", 90),
+])  # fmt: skip
+def test_an_axis_with_limits_stays_within_them(program: str, shown: float) -> None:
+    run = mnc.run(f"TOOL CALL 1 Z S100\n{program}\nL A+0 FMAX\n", "tnc-620", mnc.Setup(kinematics="table-ac", tools=LONG.tools))
+    assert run.ok, run.alarms
+    a = [float(row[3]) for row in run.axes()]
+    assert (min(a), max(a)) == pytest.approx((min(shown, 0), max(shown, 0))) and a[-1] == 0
+
+
+def test_an_angle_a_hair_below_zero_shows_zero() -> None:
+    """The plane leaves C where a half turn less a half turn is, 1e-16 below 0: no whole turn away from 0."""
+    program = "TOOL CALL 1 Z S100\nPLANE SPATIAL SPA+30 SPB+0 SPC+180 TURN FMAX\nL X+0 FMAX M94\nL X+1 FMAX\n"
+    run = mnc.run(program, "tnc-620", mnc.Setup(kinematics="table-ac", tools=LONG.tools))
+    assert run.ok and np.abs(run.toolpath.rotary[:, 2]).max() < 1e-9
 
 
 def test_own_words_of_m_functions_do_not_meet_those_of_the_block(inside) -> None:

@@ -310,6 +310,25 @@ def test_a_datum_that_leans_leans_the_plane() -> None:
     assert level.toolpath.end[-1] == pytest.approx(leans @ (3, 4, 5))
 
 
+ZERO = "CYCL DEF 19.0 P\nCYCL DEF 19.1 A+0 B+0 C+0"
+
+
+@pytest.mark.parametrize("kinematics", MACHINES)
+@pytest.mark.parametrize("ends", [
+    "PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN FMAX", "PLANE SPATIAL SPA+0 SPB+0 SPC+0 MOVE F900",
+    "PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY\nL {}", f"{ZERO}\nL {{}}", f"{ZERO} F900 ABST50",
+    f"{ZERO} F900 ABST50\nCYCL DEF 19.0 P\nCYCL DEF 19.1",
+])  # fmt: skip
+def test_three_angles_of_zero_are_the_rotary_axes_at_zero(kinematics: str, ends: str) -> None:
+    """The plane before left C where Z of the plane leaves it free: on the part X Y Z are those of the program all the same."""
+    first, last = ("A", "C") if kinematics == "table-ac" else ("B", "C")
+    turned = ends.format(f"{first}+Q{120 + 'ABC'.index(first)} {last}+Q122 FMAX")
+    found = run(f"L C+90 FMAX\nPLANE SPATIAL SPA+20 SPB+20 SPC+0 TURN FMAX\nL X+1 Y+1 Z+50 FMAX\n{turned}\n"
+                "L X+12 Y-7 Z+9 FMAX", kinematics=kinematics)  # fmt: skip
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx([12, -7, 9])
+    assert np.array(found.axes())[-1] == pytest.approx([12, -7, 89, 0, 0, 0])
+
+
 @pytest.mark.parametrize("leads", ["", "FUNCTION TCPM F TCP AXIS POS\n"])
 def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
     """C_OFFS 20: the part was measured with C at 20 of the machine, so the plane lies turned by 20 on the part, and C shows 90
@@ -325,6 +344,21 @@ def test_a_table_that_counts_from_elsewhere(leads: str) -> None:
     assert np.array(back.axes())[-1] == pytest.approx([6, 8, 90, 0, 0, 20])
     level = "PLANE SPATIAL SPA+0 SPB+0 SPC+15 TURN FMAX TABLE ROT\nL X+3 Y+0 Z+5 FMAX"
     assert np.array(run(level, kinematics="table-ac", presets=presets).axes())[-1, 5] == pytest.approx(35)
+
+
+@pytest.mark.parametrize(("again", "r"), [
+    ("PLANE RELATIV SPB+25 TURN FMAX", about("C", 30) @ about("B", 45)),
+    ("PLANE SPATIAL SPA+0 SPB+45 SPC+30 TURN FMAX", about("C", 30) @ about("B", 45)),
+])  # fmt: skip
+def test_a_shift_within_the_plane_moves_the_new_plane(again: str, r: np.ndarray) -> None:
+    """11.9: a shift before the tilt moves the datum that it turns about, one behind it the tilted system; it is told of."""
+    shift = "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+5\nCYCL DEF 7.2 Y-3\n"
+    first = "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+50\nPLANE SPATIAL SPA+0 SPB+20 SPC+30 TURN FMAX\n"
+    goal = f"{again}\nL X+1 Y+2 Z+3 FMAX"
+    found = run(f"{first}{shift}{goal}", kinematics="table-ac")
+    assert found.toolpath.end[-1] + found.toolpath.origin == pytest.approx(r @ (6, -1, 3) + (50, 0, 0))
+    assert "shift defined in that act in the new one" in found.alarms[0].message
+    assert not run(f"{first}{goal}", kinematics="table-ac").alarms and not run(f"{first}{shift}L X+1 FMAX").alarms
 
 
 def test_shift_rotation_and_mirror_behind_the_tilt() -> None:

@@ -194,12 +194,30 @@ def test_the_tool_turns_in_the_plane_of_its_directions() -> None:
         assert (np.abs(ways @ normal).max() < 1e-9) == flat
 
 
+@pytest.mark.parametrize("machine", MACHINES)
+def test_an_axis_that_is_free_at_the_start_turns_first(machine: str) -> None:
+    """From A0 C0 to the direction Ry(20) Rx(10) Z: C turns to where the way begins, the tip stands; then the tip goes straight
+    and the tool turns in the plane of Z and the last direction."""
+    found = run("L X+12 Y-7 Z+9 F500\nFUNCTION TCPM F TCP AXIS SPAT PATHCTRL VECTOR\n"
+                "L X+20 Y+5 Z+3 A+10 B+20 C+0 F500", kinematics=machine)  # fmt: skip
+    axes = between(found, 4)
+    begin, end = np.array([12, -7, 9]) + DATUM, np.array([20, 5, 3]) + DATUM
+    places, upright = tips(machine, axes), np.abs(axes[:, 3:5]).max(axis=1) < 1e-9
+    assert np.abs(places[upright] - begin).max() < 0.0101 and abs(axes[upright][-1, 5]) > 20
+    assert off_the_line(places, begin, end) < 0.0101 and places[-1] == pytest.approx(end)
+    a, b = math.radians(10), math.radians(20)
+    last = np.array([math.sin(b) * math.cos(a), -math.sin(a), math.cos(b) * math.cos(a)])
+    ways = found.toolpath.directions[found.toolpath.line == 4]
+    assert ways[-1] == pytest.approx(last) and np.abs(ways @ np.cross([0, 0, 1], last)).max() < 1e-9
+
+
 def test_a_tool_that_would_pass_upright_makes_an_axis_jump() -> None:
     """From A20 to A-20 in one plane the tool passes Z; to A20 C180, the same direction, C would turn by half a turn there."""
     begin = f"{TCPM} PATHCTRL VECTOR\nL X+40 Y+10 Z+50 A+20 C+0 FMAX\n"
     assert run(f"{begin}L A-20 F600", kinematics="table-ac").ok
     alarm = run(f"{begin}L A+20 C+180 F600", kinematics="table-ac", ok=False).alarms[0]
     assert alarm.message.startswith("the rotary axes would have to jump on the way") and alarm.span[:2] == (4, 3)
+    assert alarm.hint.startswith("PATHCTRL AXIS")
 
 
 def test_an_arc_is_one_of_the_part_with_a_tool_that_leans() -> None:

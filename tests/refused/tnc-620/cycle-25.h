@@ -106,6 +106,20 @@ L Y+50
 +L X+40
 +L Y+40 R0
 
+; == begins-with-an-arc like corner
+; 23:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a line)
+@@ 23
+-L X+10 Y+10 RL
++CR X+75 Y+56 R+18 DR+
+
+; == half-a-start like corner
+; 24:1 alarm: the arc has no start: nothing before it in the contour names both coordinates (begin with a line)
+@@ 23
+-L X+10 Y+10 RL
+-L X+50
++L X+10 RL
++CR X+75 Y+56 R+48 DR+
+
 ; == contour-crosses-itself like corner
 ; 27:1 alarm: the contour crosses itself
 @@ 23

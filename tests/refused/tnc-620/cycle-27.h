@@ -152,7 +152,7 @@ L X+50
 +2 TOOL CALL 1 X S1000 F200
 
 ; == tool-square like groove
-; 18:1 alarm: CYCL DEF 27 needs a tool square to the rotary axis C, which carries A: the spindle axis is not perpendicular to the axis of the rotary table
+; 18:1 alarm: CYCL DEF 27 needs a tool square to the rotary axis C: the spindle axis is not perpendicular to the axis of the rotary table
 @@ 5
 +2 CYCL DEF 19.0 X
 +2 CYCL DEF 19.1 B+45

@@ -4,8 +4,9 @@ All of them read one contour on the developed surface and machine it level by le
 how), each level being a distance of the tip from the axis of the cylinder. Before them and after them the tool is at the
 height where it stood, at least at Q16 + Q6.
 
-Without the kinematics of a machine the axis of the cylinder is that rotary axis which is square to the tool: under a tilted
-plane the one that carries the other ("rotary_axes"), else the first of the two, unless the setting "cylinder_axis" names one.
+The axis of the cylinder is that rotary axis of the table which is square to the tool: under a tilted plane the one next to the
+part, without the kinematics of a machine the one that carries the other ("rotary_axes"), unless the setting "cylinder_axis"
+names one.
 It passes through the active datum, as the manual asks. X of the contour is the coordinate of that axis, Y runs along it; a
 mirror image of either mirrors the contour, and the shift of the rotary axis moves it.
 """
@@ -39,6 +40,7 @@ from mnclab.machining.depths import infeeds
 from mnclab.machining.milling.clearing import numbered
 from mnclab.machining.steps import RAPID, Go, Rolled, Say, Step, Write
 from mnclab.path.cylinder import Cylinder
+from mnclab.path.listing import figure
 from mnclab.path.toolpath import PathFault
 from mnclab.text.alarm import Alarm
 
@@ -103,14 +105,17 @@ def surface_faults(m: Machine) -> Iterator[ParameterFault]:
     if np.ptp(lengths) > SAME * lengths.max() or abs(linear.T @ linear - np.diag(lengths**2)).max() > SAME:
         yield "", "cannot run under unequal scales: the cylinder would not be round"
         return
-    found = carrier(m)
+    found, might, known = carrier(m), candidates(m), m.tables.kinematics
+    if known is not None and m.turned is not None:  # coordinates do not lie on the part as they will while the cylinder turns
+        stand = " ".join(f"{axis}{figure(math.degrees(m.rotary[AXES.index(axis)]))}" for axis in known.names)
+        yield "", f"needs the plane tilted as the rotary axes stand, {stand}: write PLANE SPATIAL before, or turn them back"
+        return
+    if found is None and not might:
+        yield "", f"needs a rotary table that turns the cylinder: the machine has {known}"
+        return
     if found is None:
-        axis = m.settings["cylinder_axis"]
-        pair = m.settings["rotary_axes"]
-        what = f"the axis {axis}" if axis != "auto" else f"one of the rotary axes {pair[0]} and {pair[1]}"
-        if axis == "auto" and TILT in m.frames:
-            what = f"the rotary axis {pair[0]}, which carries {pair[1]}"
-        yield "", f"needs a tool square to {what}: the spindle axis is not perpendicular to the axis of the rotary table"
+        what = f"needs a tool square to the rotary axis {' or '.join(might)}"
+        yield "", f"{what}: the spindle axis is not perpendicular to the axis of the rotary table"
         return
     along, across, out = _directions(m, found)
     moved = m.matrix[:3, 3] - _preset(m)[:3, 3]
@@ -141,10 +146,17 @@ def surface(m: Machine, radius: float) -> Surface:
 
 def carrier(m: Machine) -> int | None:
     """The number of the rotary axis of the cylinder; None where the tool is not square to it."""
-    wanted, pair = m.settings["cylinder_axis"], m.settings["rotary_axes"]
-    choice = wanted if wanted != "auto" else pair[0] if TILT in m.frames else pair
-    square = (AXES.index(axis) for axis in choice if abs(_tool(m)[AXES.index(axis)]) < SAME)
+    square = (AXES.index(axis) for axis in candidates(m) if abs(_tool(m)[AXES.index(axis)]) < SAME)
     return next(square, None)
+
+
+def candidates(m: Machine) -> str:
+    """The rotary axes that may turn the cylinder, those next to the part first: what a head turns is the tool."""
+    wanted, known = m.settings["cylinder_axis"], m.tables.kinematics
+    there = m.settings["rotary_axes"] if known is None else "".join(axis.name for axis in reversed(known.table))
+    if wanted == "auto":
+        return there[:1] if TILT in m.frames else there
+    return wanted if known is None or wanted in there else ""
 
 
 def _tool(m: Machine) -> Floats:

@@ -124,9 +124,14 @@ def solved(m: Machine, to: Place) -> str:
     return f"{' '.join(stands)}, tool axis ({', '.join(map(figure, kinematics.orientation(to)[:, 2].tolist()))})"
 
 
+def tilted(m: Machine) -> list[str]:
+    """The kinds of what is defined behind the tilt."""
+    return [kind for kind in KINDS if kind + TILTED in m.frames]
+
+
 def untilt(m: Machine) -> Generator[Write, None, list[str]]:
     """Take the tilt out; what was defined behind it acts in the untilted system from now on. The kinds of those are told."""
-    left = [kind for kind in KINDS if kind + TILTED in m.frames]
+    left = tilted(m)
     for kind in left:
         now = kind if kind not in m.frames else kind + ALSO
         yield Write("renamed", now, kind + TILTED)

@@ -42,6 +42,7 @@ SETTINGS = (
     ),
 )  # fmt: skip
 RESULTS = ("Q120", "Q121", "Q122")
+REVERSE = "reset in the reverse order of definition"
 LEVEL = 1e-12  # by which Z of a plane may differ from Z before it
 STILL: dict[str, Any] = {"default": None, "default_means": "they are not moved"}
 tilt = partial(angle, default=None, default_means="as it is")
@@ -51,8 +52,8 @@ tilt = partial(angle, default=None, default_means="as it is")
 class WorkingPlane(Cycle):
     """Tilts the working plane about the active datum and writes where the rotary axes must stand into Q120 to Q122.
 
-    F and ABST move them there while the point ABST below the tip stands still; without them the program does. Without a word
-    the function is off.
+    F and ABST move them there while the point ABST below the tip stands still; without them the program does. Three angles of
+    0 are the rotary axes at 0, as the reset wants them before the function is switched off; without a word it is off.
     """
 
     about = in_program_coordinates
@@ -96,6 +97,8 @@ class WorkingPlane(Cycle):
             return
         if m.settings["tilt_angles"] == "axes":
             to = yield from begin_by_axes(m, with_axes(m, m.rotary, self.angles))
+        elif not any(self.angles) and m.tables.kinematics is not None and level(m):
+            to = yield from _begin(m, frames.IDENTITY, self.angles, at_zero(m), False)
         else:
             to = yield from begin(m, self.code, frames.spatial(*map(math.radians, self.angles)), self.angles)
         if self.rotary_feed is not None:
@@ -115,7 +118,7 @@ def over(m: Machine) -> Iterator[Step]:
     yield Write("memory", {}, "tilt_angles")
     if chain.TILT in m.frames and (left := (yield from chain.untilt(m))):
         sentence = f"is switched off, and {', '.join(left)} defined behind it act in the untilted system"
-        yield Say(sentence, "reset in the reverse order of definition")
+        yield Say(sentence, REVERSE)
 
 
 SHORTER = Choice()
@@ -143,6 +146,8 @@ def begin_by_axes(m: Machine, to: Place) -> Generator[Step, Any, Place]:
 
 
 def _begin(m: Machine, matrix: Matrix, angles: Place, to: Place, by_axes: bool) -> Generator[Step, Any, Place]:
+    if (left := chain.tilted(m)) and not np.allclose(matrix, m.frames[chain.TILT]):
+        yield Say(f"tilts about the datum before the plane, and {', '.join(left)} defined in that act in the new one", REVERSE)
     yield Write("memory", dict(zip("abc", angles, strict=True)), "tilt_angles")
     yield Write("memory", by_axes, "tilt_by_axes")
     yield Write("frame", matrix, chain.TILT)
@@ -166,6 +171,17 @@ def with_axes(m: Machine, before: Place, degrees: Place) -> Place:
     there = rotary_axes(m).names
     a, b, c = (math.radians(new) if axis in there else old for axis, new, old in zip(NAMES, degrees, before, strict=True))
     return a, b, c
+
+
+def at_zero(m: Machine) -> Place:
+    """A, B, C, rad, where the rotary axes show 0: without a tilt that is how coordinates count, so that none is free."""
+    return with_axes(m, m.rotary, (chain.offset(m, 0), chain.offset(m, 1), chain.offset(m, 2)))
+
+
+def level(m: Machine) -> bool:
+    """Whether Z of the untilted system is that of the machine, as far as its kinematics is known."""
+    x, y, z = chain.before_tilt(m)[:3, 2].tolist()
+    return m.tables.kinematics is None or math.hypot(x, y) < LEVEL * abs(z)
 
 
 def solution(m: Machine, code: str, matrix: Matrix, choice: Choice = SHORTER) -> Place:

@@ -59,15 +59,25 @@ def machine_target(m: Machine, active: tuple[Word, Place], written: dict[int, Wo
     return {"xyz"[axis]: point[axis] for axis in (written if m.shift is not None and kinematics is None else range(3))}
 
 
+NOISE = 1e-12  # turns, of an angle that is 0
+
+
 @FUNCTIONS("M94", "Rotary axes within one turn", takes="M94:A M94:B M94:C", phase="start", modal=False, source="11.9")
 def within_one_turn(m: Machine, words: Words) -> None:
-    """The named rotary axes, or all, show an angle from 0 to less than 360 degrees; nothing moves."""
+    """The named rotary axes, or all, show an angle from 0 to less than 360 degrees; nothing moves. One whose limits do not
+    allow that angle stays as it is."""
     named = [word for word in words.words if word.address.startswith("M94:")]
     for word in named:
         if word.value is not None:
             m.alarm(f"M94 names an axis without a number, got {word.address[4:]}{m.value(word):g}", word)
-    axes = "".join(word.address[4:] for word in named) or "ABC"
-    m.change("rotary", tuple(a % math.tau if axis in axes else a for axis, a in zip("ABC", m.rotary, strict=True)))
+    axes, stand = "".join(word.address[4:] for word in named) or "ABC", list(m.rotary)
+    limits = {axis.name: axis.limits for axis in m.tables.kinematics.sequence} if m.tables.kinematics is not None else {}
+    for k, axis in enumerate("ABC"):
+        low, high = limits.get(axis, (-INF, INF))
+        shown = stand[k] - math.tau * math.floor(stand[k] / math.tau + NOISE)
+        if axis in axes and low <= math.degrees(shown) <= high:
+            stand[k] = shown
+    m.change("rotary", tuple(stand))
 
 
 # The feed of a block in all its forms: F, FMAX, FAUTO, FU, FZ, and M103, M109 to M111 (3.1; catalogue: F, TOOL CALL, M103).

@@ -58,12 +58,14 @@ ORIGIN = (0.0, 0.0)  # steps count in coordinates of the program
 @FUNCTIONS("PLANE SPATIAL,", "Tilted plane by spatial angles", takes=f"SPA SPB SPC {WHICH}", source=SOURCE)
 def plane_spatial(m: Machine, words: Words) -> None:
     """Tilts the plane about the active datum by turns about the fixed axes X, then Y, then Z, as cycle 19 does, and writes
-    where the rotary axes must stand into Q120 to Q122; three angles of 0 end the tilt."""
+    where the rotary axes must stand into Q120 to Q122; three angles of 0 end the tilt, and mean the rotary axes at 0."""
     angles = numbers(m, words, ANGLES)
-    if any(angles) or not level(m):
+    if any(angles) or not tilting.level(m):
         tilt(m, words, frames.spatial(*map(math.radians, angles)), angles)
     else:
-        untilt(m, words)
+        choice(m, words)
+        to = untilt(m, words)
+        perform(m, words.code, tilting.results(m, to if m.tables.kinematics is not None else (0.0, 0.0, 0.0)), ORIGIN)
 
 
 @FUNCTIONS("PLANE PROJECTED,", "Tilted plane by its traces", takes=f"PROPR PROMIN ROT {WHICH}", source=SOURCE)
@@ -102,7 +104,8 @@ def plane_points(m: Machine, words: Words) -> None:
 
 @FUNCTIONS("PLANE RELATIV,", "Tilted plane turned further", takes=f"SPA SPB SPC {WHICH}", source=SOURCE)
 def plane_relative(m: Machine, words: Words) -> None:
-    """Turns the active plane about one of its own axes."""
+    """Turns the active plane about one of its own axes, and about the datum that it has: a shift defined in the plane moves the
+    tilted system (11.9), so it acts in the new one as it does where SPATIAL or cycle 19 are defined anew; a warning says so."""
     word = one_of(m, words, ANGLES, "one angle")
     if word is None:
         m.alarm("PLANE RELATIV needs SPA, SPB or SPC")
@@ -140,13 +143,7 @@ def plane_axial(m: Machine, words: Words) -> None:
 def plane_reset(m: Machine, words: Words) -> None:
     """Cycle 19 and PLANE are over; with MOVE and TURN the rotary axes turn to 0, with STAY they stay. Without the kinematics of
     a machine one that does not lean the tool stays."""
-    how = behaviour(m, words)
-    perform(m, words.code, tilting.over(m), ORIGIN)
-    if m.tables.kinematics is None:
-        to = tilting.axis_positions(m, words.code)
-    else:
-        to = tilting.with_axes(m, m.rotary, (chain.offset(m, 0), chain.offset(m, 1), chain.offset(m, 2)))
-    turn(m, words, how, to)
+    untilt(m, words)
 
 
 # --- what is common to all --------------------------------------------------------------------------------------------
@@ -175,12 +172,6 @@ def angle(m: Machine, words: Words, address: str) -> float:
     return value
 
 
-def level(m: Machine) -> bool:
-    """Whether Z of the untilted system is that of the machine, as far as its kinematics is known."""
-    x, y, z = chain.before_tilt(m)[:3, 2].tolist()
-    return m.tables.kinematics is None or math.hypot(x, y) < tilting.LEVEL * abs(z)
-
-
 def tilt(m: Machine, words: Words, matrix: Matrix, angles: Place | None = None) -> None:
     """Tilt by a matrix, and turn the rotary axes as the block says; `angles` are the spatial ones, degrees, if it names them."""
     refuse_other(m, words.code)
@@ -191,12 +182,12 @@ def tilt(m: Machine, words: Words, matrix: Matrix, angles: Place | None = None) 
     turn(m, words, how, perform(m, words.code, tilting.begin(m, words.code, matrix, angles, which), ORIGIN))
 
 
-def untilt(m: Machine, words: Words) -> None:
-    which, how = choice(m, words), behaviour(m, words)
+def untilt(m: Machine, words: Words) -> Place:
+    how = behaviour(m, words)
     perform(m, words.code, tilting.over(m), ORIGIN)
-    to = tilting.solution(m, words.code, frames.IDENTITY, which)
-    perform(m, words.code, tilting.results(m, to if m.tables.kinematics is not None else (0.0, 0.0, 0.0)), ORIGIN)
+    to = tilting.axis_positions(m, words.code) if m.tables.kinematics is None else tilting.at_zero(m)
     turn(m, words, how, to)
+    return to
 
 
 def choice(m: Machine, words: Words) -> Choice:
