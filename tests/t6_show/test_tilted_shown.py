@@ -96,6 +96,7 @@ def test_tables_say_what_they_leave_out_of_tilted_tools():
     run = made(DRILLED)
     assert run.holes().nothing == "no holes along Z, what tilted tools cut is left out"
     assert "in threads, or under tilted tools, which are not looked at." in "\n".join(run.cutting_data().notes)
+    assert ", the largest rate at least " in dict(run.outcome().facts())["removal rate"]  # as the tables have it
     assert any("rows of a tool not along Z are left out" in each for each in run.design().notes)
     upright = made(DRILLED.replace("A+30", "A+0"))
     assert upright.holes().reach == "" and len(upright.holes()) == 1 and upright.design().notes == ()
