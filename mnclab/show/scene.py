@@ -31,7 +31,7 @@ from mnclab.show.rulers import frame, rounded, turning_rulers
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice, fitting, shown
 from mnclab.text.opening import require
-from mnclab.workpiece.blank import Blank
+from mnclab.workpiece.blank import Blank, depth_below
 from mnclab.workpiece.blank import blank as as_blank
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.workpiece import Solid, Workpiece
@@ -315,9 +315,9 @@ def part_body(
 ) -> pyvista.Plotter:
     """The part as a body, seen from the front, right and above.
 
-    `colour`: "depth" (mm below the highest place; on a lathe the diameter), the "tool" or the "line" that cut a face, or
-    "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their places, with pins that stand out
-    of the part. `size` in pixels.
+    `colour`: "depth" (mm below the top of the blank, or the round side of one that lies; on a lathe the diameter), the "tool"
+    or the "line" that cut a face, or "none"; what nothing cut has the colour of the blank. `collisions` are red balls at their
+    places, with pins that stand out of the part. `size` in pixels.
     """
     choice(colour, "colour", PART_COLOURS)
     check_drawing()
@@ -371,7 +371,7 @@ def _depths(workpiece: Workpiece, points: Array) -> tuple[str, Array]:
     """What "depth" shows, with its unit, and its values (n,)."""
     if workpiece.cutting.lathe:
         return "diameter, mm", 2 * np.hypot(points[:, 0], points[:, 1])
-    return "depth, mm", float(workpiece.cutting.stock.bounds[1, 2]) - points[:, 2]
+    return "depth, mm", depth_below(workpiece.cutting.stock, points)
 
 
 def add_collisions(plotter: Any, collisions: Iterable[Collision], points: Array, lathe: bool) -> None:

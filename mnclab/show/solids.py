@@ -94,12 +94,17 @@ def tool_body(tool: Tool, size: float = 10.0) -> Body:
         return revolved([(0.0, 0.0), (size / 16, size / 8), (size / 16, size / 4)], 16)
     length = max(tool.cutting_length or SHANK * 2 * radius, 2 * radius)
     angle = tool.angle or (DRILL_POINT if tool.kind == "drill" else 0.0)
+    neck, top = 0.9 * radius, max(1.3 * length, tool.holder[0][1] if tool.holder else 0.0)  # up to the holder
+    wide, above = tool.shank or (neck, length)
+    above = min(max(above, length), top)
+    shank = [(neck, length), (neck, above)] * (above > length) + [(wide, above), (wide, top)] * (above < top)
     if 0 < angle < 180:
-        return revolved([(0.0, 0.0), (radius, radius / np.tan(np.radians(angle / 2))), (radius, length)])
+        point = [(0.0, 0.0), (radius, radius / np.tan(np.radians(angle / 2))), (radius, length)]
+        return revolved(point + shank if tool.holder else point)
     corner = min(max(tool.corner, 0.0), radius)
     bend = np.linspace(0, np.pi / 2, 9 if corner else 1)
     rounding = [(radius - corner + corner * np.sin(a), corner - corner * np.cos(a)) for a in bend]
-    return revolved([*rounding, (radius, length), (0.9 * radius, length), (0.9 * radius, 1.3 * length)])
+    return revolved([*rounding, (radius, length), *shank])
 
 
 def strokes(path: Toolpath, chord_error: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -17,6 +17,7 @@ from mnclab.text.given import check_number, check_point, either, fitting, refusi
 from mnclab.text.tables import svg_of, written
 
 CORNERS = 96  # of a circle in a picture
+ROUND = 0.01  # mm, by which places taken for those of a round surface may lie below it
 FARTHEST = 1e9  # mm, where a blank may stand
 Array = NDArray[np.float64]
 
@@ -311,6 +312,16 @@ def _widest(profile: Array, along: Array) -> Array:
         radius = r0 + (r1 - r0) * (along - z0) / (z1 - z0) if z1 != z0 else np.full(along.shape, max(r0, r1))
         found = np.where(there, np.maximum(found, radius), found)
     return np.where(np.isfinite(found), found, np.nan)
+
+
+def depth_below(stock: Blank, points: Array) -> Array:
+    """How deep places (n, 3) lie below the top of a blank, of a body that lies below its round surface, mm."""
+    if not isinstance(stock, Revolved) or stock.axis == "Z":
+        return np.asarray(stock.bounds[1, 2] - points[:, 2])
+    off = points - stock.at
+    along, across = off[:, stock.along], np.delete(off, stock.along, axis=1)
+    found = _widest(np.array(stock.profile, dtype=np.float64), along) - np.linalg.norm(across, axis=1)
+    return np.where(found > ROUND, found, 0.0)  # nan beyond its ends
 
 
 def _stacked(profile: Array, bore: float, rho: Array, at: float) -> tuple[Array, Array, NDArray[np.bool_]]:

@@ -126,7 +126,8 @@ class Collisions(Pictured, Listing, tuple[Collision, ...]):
     @property
     def sentence(self) -> str:
         """How many, and how far was looked: "no collisions up to line 12, where the run stopped"."""
-        return " ".join(filter(None, [several(len(self), "collision") if len(self) else "no collisions", self.reach]))
+        count = several(len(self), "collision") if len(self) else "no collisions"
+        return " ".join(filter(None, [count, "where judged" if self.notes else "", self.reach]))
 
     @property
     def by_line(self) -> list[tuple[Collision, int]]:

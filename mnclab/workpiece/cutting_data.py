@@ -164,7 +164,8 @@ def _notes(
         alike = len(set(speeds.values())) == 1
         fastest = f"each axis {speeds['X']}" if alike else ", ".join(f"{axis} {speed}" for axis, speed in speeds.items())
         spindle = f"{figure(limits.spindle, 0)} rev/min, " if math.isfinite(limits.spindle) else ""
-        yield f"All within the limits of the machine, {spindle}{fastest} {path.unit.short}/min."
+        whose = "default limits (none were given)" if limits == Limits() else "limits of the machine"
+        yield f"All within the {whose}, {spindle}{fastest} {path.unit.short}/min."
 
 
 def _met(found: Sequence[ToolCut], chip: bool = False) -> str:

@@ -61,9 +61,9 @@ class Outcome(NamedTuple):
         most, mean, told = self.removal.largest, self.removal.mean, self.removal.told
         found = [("removed", told(self.removal.volume))]
         if most is not None:
-            rates = f"{told(mean)}/min, at most {told(most.rate)}/min in line {self.removal.place(most)}"
+            rates = f"{told(mean)}/min, {self.removal.at_most} {told(most.rate)}/min in line {self.removal.place(most)}"
             found.append(("removal rate", rates))
-        met = f"{len(self.collisions) or 'none'} {self.collisions.reach}".rstrip()
+        met = f"{len(self.collisions) or 'none'}{' where judged' * bool(self.collisions.notes)} {self.collisions.reach}".rstrip()
         return [*found, ("collisions", "; ".join([met, *self.collisions.notes]))]
 
     def html(self) -> str:

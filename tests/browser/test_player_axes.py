@@ -29,6 +29,15 @@ SEEN = """([row, place]) => {
     return {...found, tool: run.chain.tool(player.now().angles)};
 }"""
 
+#: The boxes of all names of axes after a row, seen along a view.
+WRITTEN = """([view, row]) => {
+    const {player} = window, {picture} = player;
+    player.go(player.afterItem(player.run.itemOfRow[row]));
+    player.view(view);
+    player.draw();
+    return [picture.written, picture.camera.size, picture.written.length];
+}"""
+
 
 def made(machine, text=None):
     tilt = "A" if machine == "table-ac" else "B"
@@ -75,6 +84,19 @@ def test_tool_and_part_stand_as_on_the_machine(opened, machine):
         off = place - seen["targetfalse"]
         expected = np.array(seen["size"]) / 2 + seen["zoom"] * np.array([off @ right, -off @ up])
         assert np.allclose(seen["false"], expected, atol=1e-6)
+
+
+def test_what_is_written_of_axes_stands_apart_in_every_view(opened):
+    """A plane leans by 25 degrees about Y: from above and from the front axes of the plane and the zero point fall together. No
+    two names overlap, all are in the picture, and an axis that points at whoever looks has none."""
+    run = made("table-ac", "PLANE SPATIAL SPA+0 SPB+25 SPC+0 TURN MB50 FMAX\nL X+8 Y-15 Z+5 F500\nL Y+15")
+    page, row = opened(run), int(np.flatnonzero(run.toolpath.is_motion)[-1])
+    for view in ("top", "front", "right", "isometric"):
+        boxes, (w, h), names = page.evaluate(WRITTEN, [view, row])
+        assert names == {"top": 7, "front": 7, "right": 6, "isometric": 8}[view], (view, boxes)
+        for k, (left, top, right, bottom) in enumerate(boxes):
+            assert left >= 0 and top >= 0 and right <= w and bottom <= h, (view, k)
+            assert all(right <= a or left >= c or bottom <= b or top >= d for a, b, c, d in boxes[k + 1 :]), (view, k)
 
 
 def test_a_button_lets_the_part_stand_still(opened):

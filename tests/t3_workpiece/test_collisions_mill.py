@@ -341,7 +341,7 @@ def test_a_note_names_what_is_not_judged():
     text = "TOOL CALL 3 Z S1000\nL Z+91 R0 FMAX M3\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 STAY\nL Z+95 R0 F100\n"
     found = mnclab.run(text, "tnc-620").collisions(((-20, -20, -20), (20, 20, 90)))
     assert found == () and found.notes == ("1 row on which the tool turns not judged (program:4)",)
-    assert repr(found) == "no collisions\n  note: 1 row on which the tool turns not judged (program:4)"
+    assert repr(found) == "no collisions where judged\n  note: 1 row on which the tool turns not judged (program:4)"
     assert "<p>1 row on which the tool turns not judged (program:4)</p>" in found._repr_html_()
 
 

@@ -106,7 +106,7 @@ def test_what_is_above_its_limit_is_named():
     data = milled(20, -3, limits=Limits(spindle=1500, rapid=300))
     assert data()[0].beyond == ("n above 1500", "vf above 300")
     inside = milled(20, -3)
-    assert inside()[0].beyond == () and "within the limits of the machine, each axis 10000 mm/min." in repr(inside())
+    assert inside()[0].beyond == () and "within the default limits (none were given), each axis 10000 mm/min." in repr(inside())
     assert inside(vc=60, fz={1: 0.04})[0].beyond == ("vc above 60", "fz above 0.04")
     assert inside(vc=63, fz={1: 0.05})[0].beyond == ()
     assert "vc above 60" in inside(vc=60)._repr_html_()

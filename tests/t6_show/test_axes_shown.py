@@ -26,6 +26,15 @@ def test_a_curve_for_each_axis_that_moves():
     assert picture.alt == "axes over row of the path: X from -20 to 20, Z from 0 to 140, A from 0 to 30"
 
 
+def test_the_picture_of_axes_begins_at_the_first_row_and_counts_angles():
+    """Of 0 to 90 degrees both ends are told; whose coordinates they are is said; before the first move the axes stand."""
+    picture = made("L C+90 F500").axes().plot()
+    first, last = picture.axes[0], picture.axes[-1]
+    assert first.get_title(loc="left") == "machine coordinates, X Y Z of the spindle reference"
+    assert last.get_xlim()[0] == 0 and last.lines[0].get_xdata()[0] == 0
+    assert {0, 30, 60, 90} <= set(last.get_yticks().round(6).tolist())
+
+
 def test_within_an_arc_the_curve_goes_round():
     """A full circle about X10: X goes from 20 to 0 and back, although its ends are alike."""
     course, at = made("CC X+10 Y+0\nC X+20 Y+0 DR+ F300").axes().course()

@@ -11,8 +11,8 @@ from tools.together import deep_but_one_in
 
 import mnclab
 from mnclab import Alarm, Setup, Tool
-from mnclab.show.plot.part import relief
-from mnclab.workpiece.blank import cylinder
+from mnclab.show.plot.part import _coloured, relief
+from mnclab.workpiece.blank import cylinder, depth_below
 from mnclab.workpiece.collision import Collision
 
 TEXT = (
@@ -68,6 +68,19 @@ def test_a_scale_says_how_deep_colours_are(run):
     names = texts(run.workpiece().plot(colour="tool"))
     assert {"tool 1"} <= names and "depth, mm" not in names
     assert "line 5" in texts(run.workpiece().plot(colour="line"))
+
+
+def test_the_depth_of_a_drum_is_that_below_its_round_surface():
+    """A groove of 8 mm along the top of a drum of 20 mm radius, its floor at Z14: 6 deep in the middle, at its walls 20 - 14.56;
+    what nothing cut is not deep, though it falls away by 20 mm."""
+    text = "G17 G90 G54\nT1 M6 S2000 M3\nG0 X-10 Y0 Z30\nG1 Z14 F300\nG1 X70\nG0 Z50\n"
+    stock = cylinder(20, 0, 60, axis="X")
+    part = mnclab.run(text, "g43", Setup(tools=TOOLS, stock=stock, start=(0, 0, 50))).workpiece()
+    _, _, (title, low, high, _) = _coloured(part, relief(part), "depth")
+    assert (title, low) == ("depth, mm", 0.0) and high == pytest.approx(6, abs=1e-3)
+    places = [(30, 0, 14), (30, 3.99, 14), (30, 19, np.sqrt(39) - 1e-3), (30, 0, 20)]
+    assert depth_below(stock, np.array(places)) == pytest.approx([6, 20 - np.hypot(3.99, 14), 0, 0])
+    assert _coloured(uncut := mnclab.run("G54\n", "g43", Setup(stock=stock)).workpiece(), relief(uncut), "depth")[2] is None
 
 
 def test_the_scale_ends_in_a_number():

@@ -4,7 +4,8 @@
 
 const RINGS = 0.34, WIDER = 0.07;  // of the size of the picture: the ring about the first axis, and how much more the next ones have
 const DEGREE = Math.PI / 180;
-const SPOTS = [1.09, 1.24, 0.92, 1.39, 0.77];  // where a label may stand, of the length of what it names
+const SPOTS = [1.09, 1.24, 0.92, 1.39, 0.77, 0.5, 0.3];  // where a label may stand, of the length of what it names
+const SEEN = 14;  // pixels: shorter axes point at whoever looks, and have no name
 const FONT = "600 11px system-ui, sans-serif";
 
 class Chain {
@@ -191,6 +192,7 @@ class Turning {
     });
     pen.restore();
     Object.assign(pen, {fillStyle: colours.plane, font: FONT, textAlign: "center", textBaseline: "middle"});
-    for (const [name, ...way] of axes) this.picture.spread(pen, name, SPOTS.map(far => at(...way.map(v => far * size * v))));
+    const [x, y] = at(0, 0), long = ([, ...way]) => { const [u, v] = at(...way.map(v => size * v)); return Math.hypot(u - x, v - y) > SEEN; };
+    for (const [name, ...way] of axes.filter(long)) this.picture.spread(pen, name, SPOTS.map(far => at(...way.map(v => far * size * v))));
   }
 }

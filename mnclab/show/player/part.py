@@ -31,7 +31,7 @@ from mnclab.workpiece.blank import Revolved
 from mnclab.workpiece.cutting import Cutting, tool_exists
 from mnclab.workpiece.milling.moves import cutter_of
 from mnclab.workpiece.milling.raster import Raster
-from mnclab.workpiece.milling.tilted import left_out
+from mnclab.workpiece.milling.tilted import meeting, too_many
 from mnclab.workpiece.turning.section import SectionDrawing, cuts, held, left_of
 from mnclab.workpiece.turning.strokes import Strokes, strokes_of
 from mnclab.workpiece.turning.turned import half_section, room_of
@@ -171,7 +171,9 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
     y, x = (each.ravel() for each in np.meshgrid(raster.y, raster.x, indexing="ij"))
     floor, top = (np.nan_to_num(side, nan=float(bounds[0, 2])) for side in stock.faces(x, y))  # beside the blank nothing is left
     tilted = np.zeros(len(path), dtype=bool) if cutting.tilted is None else cutting.tilted
-    count = sum(int(rows.sum()) for rows, _ in left_out(cutting))
+    turns = cutting.turning & meeting(cutting)
+    wound = 0 if too_many(cutting) else int((turns & cutting.round_).sum())
+    also = f"; run.workpiece() cuts {wound} of them" if wound else ""
     does = np.where(cutting.cuts & ~cutting.turning, np.where(cutting.from_home, ARRIVES, CUTS), NOTHING)
     return {
         "low": list(raster.low),
@@ -187,7 +189,7 @@ def part(pack: Packer, cutting: Cutting, path: Toolpath) -> dict[str, Any]:
         "does": log(pack, does),
         "lift": log(pack, cutting.path.start[:, 2] - path.start[:, 2]),
         "along": _leaning(pack, cutting, tilted & ~cutting.turning),
-        "note": f"{several(count, 'move')} on which the tool turns: not cut here" if count else "",
+        "note": f"{several(int(turns.sum()), 'move')} on which the tool turns: not cut here{also}" if turns.any() else "",
     }
 
 

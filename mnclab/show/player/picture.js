@@ -294,14 +294,15 @@ class Picture {
     pen.lineWidth = 1;
     pen.fillText(text, x, y);
   }
-  // A label at the first of some places where none is yet.
+  // A label at the first of some places in the picture where none is yet.
   spread(pen, text, spots) {
     const wide = pen.measureText(text).width / 2 + 2, [x, y] = spots.find(spot => this.clear(spot, wide)) || spots[0];
     this.written.push([x - wide, y - 7, x + wide, y + 7]);
     this.label(pen, text, x, y);
   }
   clear([x, y], wide) {
-    return this.written.every(([left, top, right, bottom]) => x + wide < left || x - wide > right || y + 7 < top || y - 7 > bottom);
+    const [w, h] = this.camera.size;
+    return x > wide && x < w - wide && y > 7 && y < h - 7 && this.written.every(([left, top, right, bottom]) => x + wide < left || x - wide > right || y + 7 < top || y - 7 > bottom);
   }
   bar(pen) {
     const {camera, colours} = this, [, h] = camera.size, {unit} = this.run, length = round(60 / camera.zoom / unit.length), wide = length * unit.length * camera.zoom;

@@ -10,12 +10,14 @@ from mnclab.path.profile import Profile
 from mnclab.show.plot import colours
 from mnclab.show.plot.picture import SMALL, Picture, stacked
 from mnclab.show.plot.sizes import sized
+from mnclab.show.plot.unrolled import angle_steps
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import shown
 
 UNITS = {"X": "mm", "Y": "mm", "Z": "mm", "A": "°", "B": "°", "C": "°"}
 DECIMALS = 6  # what is below is noise of numbers
 WIDTH, HIGH = 7.0, 0.85  # inches: of the figure, and of one axis
+STEPS = 3  # of an axis that turns, at most
 
 
 @sized()
@@ -32,10 +34,12 @@ def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
         raise Alarm(message, hint="run.axes().plot(run.profile())")
     if profile is not None:
         at, over = np.interp(at, np.arange(len(profile.starts)), profile.starts), "time, s"
+    if len(at) and at[0] > 0:  # before the first move all axes stand
+        at, course = np.append(0.0, at), np.concatenate([course[:1], course])
     moving = [k for k in range(6) if len(course) and np.ptp(course[:, k]) > 0]
     ends = ", ".join(f"{name} from {low:g} to {high:g}" for name, low, high in _spans(course, moving))
-    picture = Picture((WIDTH, HIGH * max(len(moving), 1) + 0.6), f"axes over {over}: {ends or 'none moves'}")
-    for row, k in zip(stacked(picture, [1.0] * max(len(moving), 1), 0.1, left=0.8, ticks=3), moving):
+    picture = Picture((WIDTH, HIGH * max(len(moving), 1) + 0.8), f"axes over {over}: {ends or 'none moves'}")
+    for row, k in zip(stacked(picture, [1.0] * max(len(moving), 1), 0.3, left=0.8, ticks=3), moving):
         name = "XYZABC"[k]
         look = colours.AXES[k % 3]
         row.plot(at, course[:, k], color=look.colour, linewidth=look.width)
@@ -43,6 +47,9 @@ def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
         low, high = course[:, k].min(), course[:, k].max()
         row.set_ylim(low - 0.08 * (high - low), high + 0.08 * (high - low))
         row.margins(x=0)
+        if k > 2:
+            row.yaxis.set_major_locator(angle_steps(high - low, STEPS))
+    picture.axes[0].set_title("machine coordinates, X Y Z of the spindle reference", fontsize=SMALL + 1, loc="left", pad=4)
     last = picture.axes[-1]
     last.set_xlabel(over, fontsize=SMALL + 1)
     if not moving:

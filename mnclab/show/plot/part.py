@@ -39,6 +39,7 @@ from mnclab.show.plot.sections import (
 from mnclab.show.plot.sizes import sized
 from mnclab.text.alarm import Alarm
 from mnclab.text.given import choice
+from mnclab.workpiece.blank import depth_below
 from mnclab.workpiece.collision import Collision
 from mnclab.workpiece.cutting import CUTS
 from mnclab.workpiece.milling.lattice import THIN, Lattice, lattice_of, rows_at
@@ -75,7 +76,8 @@ def plot_part(
     """The part of a mill from above, lit from the upper left; of a lathe its half section.
 
     - `ax`: draw into these axes of one's own, without sections, legend and scale.
-    - `colour` of a milled part: "depth" (mm below the top of the blank), the "tool" or the "line" that cut a place last.
+    - `colour` of a milled part: "depth" (mm below the top of the blank, or the round side of one that lies), the "tool" or
+      the "line" that cut a place last.
     - `section`: planes "XZ", "YZ" or "XY", one or several, each at its place `at` (mm; default the middle of the
       blank): drawn hatched under the part, and where they lie in it.
     - `collisions`: those of a run, red crosses.
@@ -148,8 +150,7 @@ def _coloured(part: Milled, seen: Relief, colour: str) -> tuple[Array, list[tupl
     names: list[tuple[str, Any]] = []
     scale: Any = None
     if colour == "depth":
-        top = float(part.cutting.stock.bounds[1, 2])
-        depth = np.where(seen.solid, top - seen.z, 0.0)
+        depth = np.where(seen.solid, depth_below(part.cutting.stock, seen.places).reshape(seen.z.shape), 0.0)
         thick = float(np.ptp(part.cutting.stock.bounds[:, 2]))
         deepest = float(depth.max())
         beyond = max(min(ROOM * deepest, thick), 1e-9)
@@ -217,10 +218,15 @@ class Relief(NamedTuple):
     x: Array
     y: Array
 
+    @property
+    def places(self) -> Array:
+        """The middle (ny nx, 3) of each pixel."""
+        y, x = np.meshgrid(self.y, self.x, indexing="ij")
+        return np.stack([x, y, self.z], axis=2).reshape(-1, 3)
+
     def rows(self, workpiece: Milled) -> NDArray[np.int64]:
         """The row that cut each pixel last (ny, nx), -1 where none did."""
-        y, x = (each.ravel() for each in np.meshgrid(self.y, self.x, indexing="ij"))
-        return rows_at(workpiece, x, y, self.z.ravel()).reshape(self.z.shape)
+        return rows_at(workpiece, *self.places.T).reshape(self.z.shape)
 
 
 def _cells(ax: Axes) -> int:

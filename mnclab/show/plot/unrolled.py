@@ -113,7 +113,11 @@ def _degrees(ax: Axes, one: Cylinder) -> None:
     above = ax.secondary_xaxis("top", functions=(lambda u: u * per, lambda angle: angle / per))
     low, high = ax.get_xlim()
     wide = (high - low) * per
-    step = next((each for each in ANGLES if wide <= MOST * each), 360 * math.ceil(wide / 360 / MOST))
-    above.xaxis.set_major_locator(MultipleLocator(step))
+    above.xaxis.set_major_locator(angle_steps(wide, MOST))
     above.set_xlabel(f"{'ABC'[one.rotary]}, degrees", fontsize=SMALL + 1)
     above.tick_params(labelsize=SMALL)
+
+
+def angle_steps(wide: float, most: int) -> MultipleLocator:
+    """Ticks of an axis of so many degrees, with `most` steps that people count angles in."""
+    return MultipleLocator(next((each for each in ANGLES if wide <= most * each), 360 * math.ceil(wide / 360 / most)))

@@ -19,12 +19,12 @@ from mnclab.text.opening import opened
 from mnclab.text.tables import html_table
 
 Row = Sequence[str]
-GOOD, BAD = "good", "bad"
+GOOD, BAD, DOUBTFUL = "good", "bad", "doubtful"
 QUOTED = 84  # characters of a quoted line of a program
 
 
 class Words(NamedTuple):
-    """A paragraph; its `tone` is "good", "bad" or nothing."""
+    """A paragraph; its `tone` is "good", "bad", "doubtful" or nothing."""
 
     text: str
     tone: str = ""

@@ -19,6 +19,7 @@ from mnclab.path.tool import LATHE, Tool
 from mnclab.path.toolpath import Kind
 from mnclab.show.report.document import (
     BAD,
+    DOUBTFUL,
     GOOD,
     Alarms,
     Blanks,
@@ -78,9 +79,10 @@ class Report:
         """Whether all is well, in one line."""
         counts = amounts(self.alarms)
         said = [several(counts[name], name) if counts[name] else f"no {name}s" for name in (ALARM, WARNING)]
-        if self.collisions is not None:
-            said.append(self.collisions.sentence)
-        return Words(", ".join(said), BAD if counts[ALARM] or self.collisions else GOOD if not counts[WARNING] else "")
+        met = self.collisions
+        said += [] if met is None else ["; ".join([met.sentence, *met.notes])]
+        worst = BAD if counts[ALARM] or met is not None and (len(met) or met.reach) else DOUBTFUL
+        return Words(", ".join(said), worst if worst == BAD or counts[WARNING] or met else GOOD)
 
 
 def report(run: Any, title: str | None = None, machine: Any = None) -> Report:
@@ -104,13 +106,21 @@ def _facts(run: Any, unit: Unit, time: float) -> Iterator[tuple[str, str]]:
     yield from ((name, f"{unit.figure(summary[name], 1)} {unit.short}") for name in ("cutting length", "rapid length"))
     yield "time", clock(time)
     low, high = path.bounds
-    for axis, least, most in zip("XYZ", low, high) if np.isfinite(low).all() else ():
+    known, chain = bool(np.isfinite(low).all()), path.kinematics
+    if known and chain is not None:  # the tip goes along other ways than the axes
+        for name, found in (("tip on the part", np.array([low, high])), ("axes of the machine", run.axes().course()[0])):
+            spans = [(unit.figure(a, 1), unit.figure(b, 1)) for a, b in zip(found.min(axis=0)[:3], found.max(axis=0)[:3])]
+            said = ", ".join(f"{axis} {a} to {b}" for axis, (a, b) in zip("XYZ", spans))
+            turns = ((axis, column) for axis, column in zip("ABC", found.T[3:]) if axis in chain.names)
+            turned = ", ".join(f"{axis} {figure(each.min(), 3)} to {figure(each.max(), 3)}" for axis, each in turns)
+            yield name, f"{said} {unit.short}" + f"; {turned} degrees" * bool(turned)
+    for axis, least, most in zip("XYZ", low, high) if known and chain is None else ():
         double = 2 if path.lathe and axis == "X" else 1
         if not (path.lathe and axis == "Y"):
             said = f"{unit.figure(double * least, 1)}, {unit.figure(double * most, 1)} {unit.short}"
             yield f"{axis}{' (diameter)' if double == 2 else ''} from, to", said
     for axis, angles in zip("ABC", np.degrees(path.rotary).T):
-        if angles.any():
+        if angles.any() and chain is None:
             yield f"{axis} from, to", f"{figure(angles.min(), 3)}, {figure(angles.max(), 3)} degrees"
     if run.stock:
         yield "blank", size_of(run.stock, path.lathe, unit)
@@ -143,7 +153,8 @@ def document(run: Any, found: Report, picture: Any, difference: Any = None, prof
     sections.append(Section("Alarms", [Alarms(found.alarms) if found.alarms else none]))
     if found.removal and found.collisions is not None:
         told = [Words(f"{each.file}:{each.line}: collision: {each.message}", BAD) for each in found.collisions]
-        told += [Words(found.collisions.sentence)] if found.collisions.reach else []
+        open_ = [found.collisions.sentence, *found.collisions.notes] if found.collisions.reach or found.collisions.notes else []
+        told += [Words(each, DOUBTFUL) for each in open_]
         sections.append(Section("Collisions", told or [none]))
     sections.append(set_up(run))
     if found.measured or run.touches:
