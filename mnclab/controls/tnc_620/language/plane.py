@@ -64,8 +64,8 @@ def plane_spatial(m: Machine, words: Words) -> None:
         tilt(m, words, frames.spatial(*map(math.radians, angles)), angles)
     else:
         choice(m, words)
-        to = untilt(m, words)
-        perform(m, words.code, tilting.results(m, to if m.tables.kinematics is not None else (0.0, 0.0, 0.0)), ORIGIN)
+        untilt(m, words)
+        perform(m, words.code, tilting.results(m, tilting.at_zero(m)), ORIGIN)
 
 
 @FUNCTIONS("PLANE PROJECTED,", "Tilted plane by its traces", takes=f"PROPR PROMIN ROT {WHICH}", source=SOURCE)
@@ -182,12 +182,11 @@ def tilt(m: Machine, words: Words, matrix: Matrix, angles: Place | None = None) 
     turn(m, words, how, perform(m, words.code, tilting.begin(m, words.code, matrix, angles, which), ORIGIN))
 
 
-def untilt(m: Machine, words: Words) -> Place:
+def untilt(m: Machine, words: Words) -> None:
     how = behaviour(m, words)
     perform(m, words.code, tilting.over(m), ORIGIN)
     to = tilting.axis_positions(m, words.code) if m.tables.kinematics is None else tilting.at_zero(m)
     turn(m, words, how, to)
-    return to
 
 
 def choice(m: Machine, words: Words) -> Choice:
