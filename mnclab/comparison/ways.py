@@ -90,8 +90,8 @@ def of_links(one: Motion, other: Motion, i: Index, j: Index, tolerance: float, a
         if kind[k] == ASIDE or k in deepest or said[0] == said[1] or (a.lathe and kind[k] != NEARER):
             said = a.route(i[k], until), b.route(j[k], until)
         if leans[k] and kind[k] == ASIDE:
-            at, to = (int(w.rapids[w.begin[n] + min(until, int(w.count[n]) - 1)]) for w, n in ((a, i[k]), (b, j[k])))
-            said = tilts(one, at, other, to)
+            leaning_moves = [int(w.rapids[w.begin[n] + min(until, int(w.count[n]) - 1)]) for w, n in ((a, i[k]), (b, j[k]))]
+            said = tilts(one, leaning_moves[0], other, leaning_moves[1])
         ranks = [until, deepest.get(k, until)]
         if kind[k] == LOWER and k not in deepest and b.motion.turns:  # what goes so low, not what turns the tool before it
             z = heights[k, 2:] if lower[k] == down[k] else heights[k, :2]
