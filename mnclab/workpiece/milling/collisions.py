@@ -102,12 +102,13 @@ def _near_drum(cutting: Cutting) -> Index:
     idle = np.array([tool.kind in ALONG for tool in cutting.tools])[cutting.which[row]] | (path.kind[row] == Kind.RAPID)
     turns = np.array([1 if tool.hand == "right" else -1 for tool in cutting.tools])[cutting.which[row]]
     idle |= path.spindle[row] * turns <= 0
-    axis, point = path.axis[row[0]], path.centre[row[0]]  # one drum
-    away = np.concatenate(cutting.stock.edges()) - point
-    reach = float(np.linalg.norm(away - np.multiply.outer(away @ axis, axis), axis=1).max())
+    axis, point = path.axis[row], path.centre[row]
+    lines, which = np.unique(np.hstack([axis, np.cross(axis, point)]).round(6), axis=0, return_inverse=True)
+    places = np.concatenate(cutting.stock.edges())  # a line is its direction and its moment about the origin (Plücker)
+    reach = np.array([np.linalg.norm(np.cross(line[:3], places) - line[3:], axis=1).max() for line in lines])
     above = (np.einsum("ij,ij->i", end - path.centre[row], up) for end, up in ((starts, first), (ends, last)))
     low = np.minimum(*above) + np.where(idle, 0.0, np.array(lifts)[cutting.which[row]])
-    return rows if len(cutting.fixtures) else np.unique(row[low < reach])
+    return rows if len(cutting.fixtures) else np.unique(row[low < reach[which.ravel()] + TOLERANCE])
 
 
 def _wound(cutting: Cutting, row: int) -> Iterator[tuple[Cutting, int, Array]]:

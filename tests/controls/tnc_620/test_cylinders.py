@@ -577,6 +577,19 @@ def test_a_holder_over_a_drum_that_turns_is_judged(known):
         assert bool(turned) == bool(depth) and all(each.depth == pytest.approx(depth, abs=2e-3) for each in turned)
 
 
+def test_each_axis_has_its_own_farthest_place():
+    """A bar of 120 × 20 × 20 along X is at most 14.2 mm from A, and 60.8 from C, about which a tip 30 away winds: the holder
+    begins 20 mm above it, and meets the corner of the end of the bar."""
+    table = mnc.Kinematics(table=(mnc.Axis("A"), mnc.Axis("C")))
+    tool = mnc.Tool(number=1, radius=3, holder=((8, 20.0),))
+    setup = mnc.Setup(tools={1: tool}, stock=((-60, -10, -10), (60, 10, 10)), kinematics=table)
+    way = "L X+0 Y+0 Z+9 F500\nL A+40\nL Z+90 FMAX\nL A+90 FMAX\nL Z+30 F500\nL C+90\nL Z+90\nM2"
+    run = mnc.run(f"BEGIN PGM A MM\nTOOL CALL 1 Z S2000\nL X+0 Y+0 Z+90 R0 FMAX M3\n{way}\nEND PGM A MM\n", "tnc-620", setup)
+    found = run.collisions(step=1.0)
+    deepest = max((each for each in found if each.kind == "holder"), key=lambda each: each.depth)
+    assert found.notes == () and deepest.line in (9, 10) and deepest.depth == pytest.approx(math.hypot(60, 10) - 50, abs=0.02)
+
+
 def test_of_very_many_turns_that_meet_the_drum_the_rest_is_named():
     """60 there and back and 60 back, round the drum and along it: 120 rows, 100 of which are judged."""
     way = "".join(f"\nL Y+{1 + k / 10} \nL X+{k % 2}" for k in range(120))
