@@ -76,13 +76,14 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
         for name, (column, said) in NAMES.items():
             if (limits := getattr(wanted, name)) is None:
                 continue
-            have = (name == "ap" and pass_of(run, wanted.tool)) or getattr(cut, column)
+            deep = passes_of(run, wanted.tool) if name == "ap" else {}
+            have = (min(deep), max(deep)) if deep else getattr(cut, column)
             low, high = have if have is not None else (0.0, math.inf)  # what is not known is not right
             slack = 1e-9 * abs(limits[1])
             if not (limits[0] - slack <= low and high <= limits[1] + slack):
                 way = "low" if low < limits[0] else "high"
                 told = f"{said} of tool {wanted.tool} is not as asked for"
-                line = _line_of_tool(run, wanted.tool)
+                line = deep[low if way == "low" else high] if deep else _line_of_tool(run, wanted.tool)
                 yield Finding(ASKED, f"{name} of tool {wanted.tool}", line, (told, f"{said} of tool {wanted.tool} is too {way}"))
 
 
@@ -98,8 +99,9 @@ def _of_cabinet(exercise: Exercise, run: Run) -> Iterator[Finding]:
             yield Finding(ASKED, "cabinet", _line_of_tool(run, number), (told,))
 
 
-def pass_of(run: Run, number: int) -> tuple[float, float] | None:
-    """The depth of the passes on a lathe and of the pecks of a drill, by the volume that each takes away on its whole way.
+def passes_of(run: Run, number: int) -> dict[float, int]:
+    """The depths of the passes on a lathe and of the pecks of a drill, by the volume that each takes away on its whole way, and
+    the line of each.
 
     The shoulder that a pass meets at its end is so no depth of it. None of a mill.
     """
@@ -112,8 +114,8 @@ def pass_of(run: Run, number: int) -> tuple[float, float] | None:
         r, out = np.abs(path.start + path.end)[rows, 0] / 2, -1 if tool.kind == "boring" else 1
         deep = out * (np.sqrt(np.maximum(r**2 + out * area / path.lengths[rows], 0)) - r)
     else:
-        return None
-    return float(deep.min()), float(deep.max())
+        return {}
+    return dict(zip(deep.tolist(), path.line[rows].tolist()))
 
 
 def _line_of_tool(run: Run, number: int) -> int:

@@ -56,7 +56,15 @@ def hints_of(
     off = [min((abs(hint.line - each.line) for each in hints[:k]), default=9) for k, hint in enumerate(hints)]
     ranks = [int(k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # a neighbour is seen anyway
     ranks += [4 - off[k] if off[k] < 2 else 2 * (not cause.sure) for k, cause in enumerate(causes, len(told))]
-    return tuple(hints[k] for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4)[:HINTS], kinds
+    order = [k for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4][:HINTS]
+    named, chosen = {hints[k].line for k in order}, []
+    for k in order:
+        own = found[k].causes if k < len(told) else ()
+        other = next((c for c in own if c.line and all(abs(c.line - line) > 1 for line in named)), None)
+        if other:
+            named.add(other.line)
+        chosen.append(hints[k]._replace(text=f"{hints[k].text} [or in line {other.line}: {other.text}]") if other else hints[k])
+    return tuple(chosen), kinds
 
 
 def of_alarms(run: Run) -> Iterator[Finding]:
@@ -189,15 +197,19 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         what = f"something is left{_at(there)}" if partly else "nothing is cut there"
         told = f"{feature}{f', {without}' if begun else ''}: {what}"
         line, near = nearest(run, there, over=True)
-        causes = tuple(of_row(run, near, [there])) if near >= 0 else ()
+        causes = tuple(of_row(run, near, [there])) if near >= 0 else tuple(_near(run, there))
         steps = (told, f"{told}: which block should cut it, and how deep?")
         return Finding(PART, f"{feature} not cut", line, steps, there, causes)
     line, near = _said_by(row, line, run, before), row.row - before
     if not line:
         line, near = nearest(run, there)
     causes = tuple(of_row(run, near, [there, *(each.place for each in rows)], _axis(row, run))) if near >= 0 else ()
-    if row.deviation > 0 and line:  # something is left: another block may have been to take it
-        causes = (*causes[:1], Cause(nearest(run, there, but=line)[0], "this block passes there too"), *causes[1:])
+    axis = _axis(row, run)
+    surface = None if axis is None or there is None else (axis, there[axis] - row.deviation)
+    if not line:  # what was made before the answer began is none of its blocks
+        causes = () if 0 <= row.row < before else tuple(_near(run, there, surface=surface))
+    elif row.deviation > 0:  # something is left: another block may have been to take it
+        causes = (*causes[:1], *[*_near(run, there, line, *(cause.line for cause in causes[:1]))][::-1], *causes[1:])
     why = _why(row, run, before, line)
     if row.feature == "blank" or row.measure == "form":
         gone = row.deviation < 0
@@ -290,14 +302,33 @@ def _unit(measure: str) -> str:
 NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
 
 
-def nearest(run: Run, place: Place | None, over: bool = False, but: int = 0) -> tuple[int, int]:
+def _near(run: Run, place: Place | None, *but: int, surface: tuple[int, float] | None = None) -> Iterator[Cause]:
+    """Blocks beside which the one may stand that is missing: where the tool comes nearest at rapid and leaves again at rapid, of
+    all at the height of the finished `surface` (axis, value) first; the block at feed that passes nearest, however far away."""
+    path = run.toolpath
+    moves = np.flatnonzero(path.is_motion & (path.program == 0))
+    rapid, went = path.kind[moves] == Kind.RAPID, (path.end - path.start)[moves]
+    across = path.lathe | (went[:, :2] != 0).any(axis=1)
+    leaves = np.append((rapid & (across | (went[:, 2] > 0)))[1:], False)
+    rows = moves[rapid & across & leaves & ~np.isin(path.line[moves], but)]
+    if place is not None and len(rows):
+        far = np.linalg.norm(path.end[rows] - place, axis=1)
+        at = np.abs(path.end[rows, surface[0]] - surface[1]) < 1e-6 if surface else far < 0
+        row = rows[np.where(at, far, far + far.max()).argmin()]
+        yield Cause(int(path.line[row]), "the tool comes here, and leaves without a cut")
+    yield Cause(nearest(run, place, False, but, math.inf)[0], "of the other blocks that cut this one comes nearest")
+
+
+def nearest(
+    run: Run, place: Place | None, over: bool = False, but: tuple[int, ...] = (), within: float = 0.0
+) -> tuple[int, int]:
     """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
     as near, and this row; 0 and -1 where none has to do with it; the last of some as near; an arc is its chord.
-    Rows of the line `but` are left out."""
+    Rows of the lines `but` are left out."""
     path = run.toolpath
     across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
     cuts = (path.kind != Kind.RAPID) | (across & over)
-    rows = np.flatnonzero(path.is_motion & (path.program == 0) & (path.line != but) & cuts)
+    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ~np.isin(path.line, but) & cuts)
     if place is None or not len(rows):
         return 0, -1
     seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
@@ -305,7 +336,7 @@ def nearest(run: Run, place: Place | None, over: bool = False, but: int = 0) -> 
     share = np.clip(((there - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-12), 0.0, 1.0)
     far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
     k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
-    reach = NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0)
+    reach = max(within, NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0))
     return (int(path.line[rows[k]]), int(rows[k])) if far[k] <= reach else (0, -1)
 
 
@@ -341,15 +372,22 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
             if abs(pitch - thread.pitch) > EXACT:
                 told = f"{name}: its pitch is not as drawn"
                 yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _start(path, row))
+        begins = tuple(Cause(_line_of_z(path, row), f"{name}: the {said} pass begins at the Z of this block", True)
+                       for row, said in ((found.deepest, "deepest"), (found.rows[-1], "last")))  # fmt: skip
         for row in found.rows[found.beside > 0]:
-            told = f"{name}: a pass does not run in the groove of the others"
-            moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
-            line = int(path.line[moved[-1] if len(moved) else row])
-            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row), own)
+            told, line = f"{name}: a pass does not run in the groove of the others", _line_of_z(path, row)
+            steps = (told, f"{told}: where along Z does it begin?")
+            yield Finding(PART, f"{name} begins", line, steps, _start(path, row), begins)
         if (shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
             sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
             yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
+
+
+def _line_of_z(path: Any, row: int) -> int:
+    """The line of the move along Z that brought the tool where a row begins."""
+    moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])
+    return int(path.line[moved[-1] if len(moved) else row])
 
 
 def _start(path: Any, row: int) -> Place:

@@ -50,7 +50,8 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
     yield Cause(of, "the tool passes there in this block")
     if path.label[row] and first != 2:  # a depth is none of its contour
         yield from of_contour(run, places)
-    for line, name in [*_values(run, of, step)][::-1]:  # the numbers that were typed before what was worked out of them
+    before = [*_brought(run, row, first)]
+    for line, name in [*_values(run, [of, *(line for line, _ in before)], step)][::-1]:  # typed before what is worked out
         yield Cause(line, f"line {of} works with the {name} of this block", True)
     for name in run.history:
         if name.startswith(FRAME) and (line := line_of(run, name, step)) > 1:
@@ -60,17 +61,23 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
     told = [Cause(line, f"line {of} works with the {name} of this block", name == first) for line, name in said if line]
     if path.label[row] and first not in (0, 1) or first == "tool":
         yield from told
-    moved = np.abs(path.end - path.start)
-    for axis in sorted((0, 2) if path.lathe else (0, 1, 2), key=lambda axis: (axis != first, moved[row, axis])):
-        before = np.flatnonzero(path.is_motion[:row] & (moved[:row, axis] > 1e-9) & (path.line[:row] != of))
-        if len(before) and path.program[before[-1]] == 0:
-            yield Cause(int(path.line[before[-1]]), f"line {of} begins at the {'XYZ'[axis]} of this block")
+    yield from (Cause(line, f"line {of} begins at the {axis} of this block") for line, axis in before)
     yield from told
 
 
-def _values(run: Run, line: int, step: int) -> Iterator[tuple[int, str]]:
-    """Where the variables of a block got their values, those first that stand in it: line and name."""
-    code, lines, known = dict(code_of(run)), [line], set[str]()
+def _brought(run: Run, row: int, first: int | str | None) -> Iterator[tuple[int, str]]:
+    """What brought the tool where a row begins, the axis `first` before the others: line and axis."""
+    path = run.toolpath
+    moved = np.abs(path.end - path.start)
+    for axis in sorted((0, 2) if path.lathe else (0, 1, 2), key=lambda axis: (axis != first, moved[row, axis])):
+        before = np.flatnonzero(path.is_motion[:row] & (moved[:row, axis] > 1e-9) & (path.line[:row] != path.line[row]))
+        if len(before) and path.program[before[-1]] == 0:
+            yield int(path.line[before[-1]]), "XYZ"[axis]
+
+
+def _values(run: Run, lines: list[int], step: int) -> Iterator[tuple[int, str]]:
+    """Where the variables of some blocks got their values, those first that stand in them: line and name."""
+    code, known = dict(code_of(run)), set[str]()
     for at in lines:
         for name in VARIABLE.findall(code.get(at, "")):
             if name not in known and (said := line_of(run, name, step)):
@@ -95,8 +102,10 @@ def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
         yield Cause(code[0][0], f"no block from this one up to line {line} says it", True)
     yield from _of_labels(code)
     if "spindle" in said:
-        lacks = "speed S" if run.history.value("turning", len(run.steps.block) - 1) else "direction, as M3"
-        yield Cause(spindle_line(run), f"no block up to this one gives the spindle a {lacks}", True)
+        last = len(run.steps.block) - 1
+        name, lacks = ("turning", "speed S") if run.history.value("turning", last) else ("speed", "direction, as M3")
+        found = line_of(run, name, last) or spindle_line(run)  # the block that has the other of the two
+        yield Cause(found, f"neither this block nor another gives the spindle a {lacks}", True)
     if "tool" in said and not run.toolpath.tool.any():  # not every control has a word for it
         yield Cause(first_move(run) or code[0][0], "no tool is called before this block", True)
 

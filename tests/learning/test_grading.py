@@ -7,7 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.learning.asked import first_line, pass_of
+from mnclab.learning.asked import first_line, passes_of
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
 from mnclab.learning.predicting import value_of
@@ -229,8 +229,41 @@ def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end(
     run = mnclab.run(text, "jnc-t01", tools={1: tool}, stock=mnclab.cylinder(diameter=40, length=60))
     last = 17**2 + (24.8 * (17.2**2 - 17**2) + 0.2 * (20**2 - 17**2)) / 27
     first = 17.2**2 + 24.8 * (20**2 - 17.2**2) / 26.8
-    assert pass_of(run, 1) == pytest.approx((last**0.5 - 17, first**0.5 - 17.2), abs=1e-3)
+    deep = passes_of(run, 1)
+    assert (min(deep), max(deep)) == pytest.approx((last**0.5 - 17, first**0.5 - 17.2), abs=1e-3)
     assert run.cutting_data()[0].depth[1] == pytest.approx(3.0)  # that of the shoulder
+
+
+def named(exercise, text, *edits):
+    """The lines that the hints name when lines of an answer are replaced or (None) left out."""
+    rows = text.split("\n")
+    for line, new in edits:
+        rows[line - 1 : line] = [] if new is None else [new]
+    return [int(line) for hint in exercise.check("\n".join(rows)).hints for line in re.findall(r"line (\d+)", str(hint))]
+
+
+def test_a_facing_that_was_forgotten_is_told_where_the_tool_stands_at_the_face_and_leaves():
+    exercise = mnclab.exercise("jnc-t01-10")
+    text = exercise.solution()
+    assert text.split("\n")[1:4] == ["G00 X22 Z0", "S600 G97 G95 F0.25 M3", "G01 X-1"]
+    assert 2 in named(exercise, text, (4, None))
+
+
+def test_a_pass_that_is_too_deep_is_told_and_of_threads_the_pass_that_begins_elsewhere():
+    exercise = mnclab.exercise("jnc-t01-09")
+    text = exercise.solution()
+    rows = text.split("\n")
+    assert (rows[4], rows[38]) == ("G00 X12.5 Z2", "Z4")
+    assert 6 in named(exercise, text, (5, "G00 X11.5 Z2"))  # its pass
+    assert 39 in named(exercise, text, (39, "Z5"))
+
+
+def test_a_number_that_variables_bring_is_told_where_it_was_typed():
+    exercise = mnclab.exercise("g43-06")
+    text = exercise.solution()
+    rows = text.split("\n")
+    assert (rows[5][:8], rows[14], rows[16]) == ("#104=1.5", "#3=#104+#1*#105", "Z-#3")
+    assert {5, 6, 7} & {*named(exercise, text, (6, "#104=1.8"))}  # it or its neighbour
 
 
 def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
