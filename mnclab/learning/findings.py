@@ -12,7 +12,7 @@ import numpy as np
 from mnclab.design.difference.threads import EXACT, passes_of
 from mnclab.learning.grade import HINTS, Hint
 from mnclab.path.toolpath import Kind
-from mnclab.runs.causes import Cause, first_move, of_alarm, of_row, spindle_line
+from mnclab.runs.causes import Cause, beside_missing, first_move, nearest, of_alarm, of_row, spindle_line
 from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 from mnclab.workpiece.collision import KINDS, Collisions
@@ -197,7 +197,7 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         what = f"something is left{_at(there)}" if partly else "nothing is cut there"
         told = f"{feature}{f', {without}' if begun else ''}: {what}"
         line, near = nearest(run, there, over=True)
-        causes = tuple(of_row(run, near, [there])) if near >= 0 else tuple(_near(run, there))
+        causes = tuple(of_row(run, near, [there])) if near >= 0 else tuple(beside_missing(run, there))
         steps = (told, f"{told}: which block should cut it, and how deep?")
         return Finding(PART, f"{feature} not cut", line, steps, there, causes)
     line, near = _said_by(row, line, run, before), row.row - before
@@ -207,9 +207,9 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
     axis = _axis(row, run)
     surface = None if axis is None or there is None else (axis, there[axis] - row.deviation)
     if not line:  # what was made before the answer began is none of its blocks
-        causes = () if 0 <= row.row < before else tuple(_near(run, there, surface=surface))
+        causes = () if 0 <= row.row < before else tuple(beside_missing(run, there, surface=surface))
     elif row.deviation > 0:  # something is left: another block may have been to take it
-        causes = (*causes[:1], *[*_near(run, there, line, *(cause.line for cause in causes[:1]))][::-1], *causes[1:])
+        causes = (*causes[:1], *[*beside_missing(run, there, line, *(cause.line for cause in causes[:1]))][::-1], *causes[1:])
     why = _why(row, run, before, line)
     if row.feature == "blank" or row.measure == "form":
         gone = row.deviation < 0
@@ -297,47 +297,6 @@ def _way(row: Any) -> str:
 
 def _unit(measure: str) -> str:
     return "degrees" if "angle" in measure else "mm"
-
-
-NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
-
-
-def _near(run: Run, place: Place | None, *but: int, surface: tuple[int, float] | None = None) -> Iterator[Cause]:
-    """Blocks beside which the one may stand that is missing: where the tool comes nearest at rapid and leaves again at rapid, of
-    all at the height of the finished `surface` (axis, value) first; the block at feed that passes nearest, however far away."""
-    path = run.toolpath
-    moves = np.flatnonzero(path.is_motion & (path.program == 0))
-    rapid, went = path.kind[moves] == Kind.RAPID, (path.end - path.start)[moves]
-    across = path.lathe | (went[:, :2] != 0).any(axis=1)
-    leaves = np.append((rapid & (across | (went[:, 2] > 0)))[1:], False)
-    rows = moves[rapid & across & leaves & ~np.isin(path.line[moves], but)]
-    if place is not None and len(rows):
-        far = np.linalg.norm(path.end[rows] - place, axis=1)
-        at = np.abs(path.end[rows, surface[0]] - surface[1]) < 1e-6 if surface else far < 0
-        row = rows[np.where(at, far, far + far.max()).argmin()]
-        yield Cause(int(path.line[row]), "the tool comes here, and leaves without a cut")
-    yield Cause(nearest(run, place, False, but, math.inf)[0], "of the other blocks that cut this one comes nearest")
-
-
-def nearest(
-    run: Run, place: Place | None, over: bool = False, but: tuple[int, ...] = (), within: float = 0.0
-) -> tuple[int, int]:
-    """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
-    as near, and this row; 0 and -1 where none has to do with it; the last of some as near; an arc is its chord.
-    Rows of the lines `but` are left out."""
-    path = run.toolpath
-    across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
-    cuts = (path.kind != Kind.RAPID) | (across & over)
-    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ~np.isin(path.line, but) & cuts)
-    if place is None or not len(rows):
-        return 0, -1
-    seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
-    there, start, along = place * seen, path.start[rows] * seen, (path.end[rows] - path.start[rows]) * seen
-    share = np.clip(((there - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-12), 0.0, 1.0)
-    far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + NEAR * (path.kind[rows] == Kind.RAPID)
-    k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
-    reach = max(within, NEAR + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0))
-    return (int(path.line[rows[k]]), int(rows[k])) if far[k] <= reach else (0, -1)
 
 
 def _at(place: Place | None) -> str:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from mnclab.path.toolpath import Kind
 from mnclab.runs.run import Run
 
 Place: TypeAlias = tuple[float, float, float]
@@ -102,9 +103,9 @@ def of_alarm(run: Run, said: str, line: int) -> Iterator[Cause]:
         yield Cause(code[0][0], f"no block from this one up to line {line} says it", True)
     yield from _of_labels(code)
     if "spindle" in said:
-        last = len(run.steps.block) - 1
-        name, lacks = ("turning", "speed S") if run.history.value("turning", last) else ("speed", "direction, as M3")
-        found = line_of(run, name, last) or spindle_line(run)  # the block that has the other of the two
+        end = len(run.steps.block) - 1
+        name, lacks = ("turning", "speed S") if run.history.value("turning", end) else ("speed", "direction, as M3")
+        found = line_of(run, name, end) or spindle_line(run)  # the block that has the other of the two
         yield Cause(found, f"neither this block nor another gives the spindle a {lacks}", True)
     if "tool" in said and not run.toolpath.tool.any():  # not every control has a word for it
         yield Cause(first_move(run) or code[0][0], "no tool is called before this block", True)
@@ -176,3 +177,44 @@ def of_contour(run: Run, places: Sequence[Place | None]) -> Iterator[Cause]:
 def _detour(place: Place, a: Corner, b: Corner) -> float:
     """How much longer the way from corner to corner is by a place."""
     return math.dist(a.point, place[:2]) + math.dist(place[:2], b.point) - math.dist(a.point, b.point)
+
+
+AROUND = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
+
+
+def beside_missing(run: Run, place: Place | None, *but: int, surface: tuple[int, float] | None = None) -> Iterator[Cause]:
+    """Blocks beside which the one may stand that is missing: where the tool comes nearest at rapid and leaves again at rapid, of
+    all at the height of the finished `surface` (axis, value) first; the block at feed that passes nearest, however far away."""
+    path = run.toolpath
+    moves = np.flatnonzero(path.is_motion & (path.program == 0))
+    rapid, went = path.kind[moves] == Kind.RAPID, (path.end - path.start)[moves]
+    across = path.lathe | (went[:, :2] != 0).any(axis=1)
+    leaves = np.append((rapid & (across | (went[:, 2] > 0)))[1:], False)
+    rows = moves[rapid & across & leaves & ~np.isin(path.line[moves], but)]
+    if place is not None and len(rows):
+        far = np.linalg.norm(path.end[rows] - place, axis=1)
+        at = np.abs(path.end[rows, surface[0]] - surface[1]) < 1e-6 if surface else far < 0
+        row = rows[np.where(at, far, far + far.max()).argmin()]
+        yield Cause(int(path.line[row]), "the tool comes here, and leaves without a cut")
+    yield Cause(nearest(run, place, False, but, math.inf)[0], "of the other blocks that cut this one comes nearest")
+
+
+def nearest(
+    run: Run, place: Place | None, over: bool = False, but: tuple[int, ...] = (), within: float = 0.0
+) -> tuple[int, int]:
+    """The line of the row at feed that passes nearest to a place, `over` it at any height, and rapid if none at feed is nearly
+    as near, and this row; 0 and -1 where none has to do with it; the last of some as near; an arc is its chord.
+    Rows of the lines `but` are left out."""
+    path = run.toolpath
+    across = path.lathe | (path.start != path.end)[:, :2].any(axis=1)  # a retract is no way to a place
+    cuts = (path.kind != Kind.RAPID) | (across & over)
+    rows = np.flatnonzero(path.is_motion & (path.program == 0) & ~np.isin(path.line, but) & cuts)
+    if place is None or not len(rows):
+        return 0, -1
+    seen = np.array([1.0, 1.0, 0.0 if over and not path.lathe else 1.0])
+    there, start, along = place * seen, path.start[rows] * seen, (path.end[rows] - path.start[rows]) * seen
+    share = np.clip(((there - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-12), 0.0, 1.0)
+    far = np.linalg.norm(start + share[:, None] * along - there, axis=1) + AROUND * (path.kind[rows] == Kind.RAPID)
+    k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
+    reach = max(within, AROUND + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0))
+    return (int(path.line[rows[k]]), int(rows[k])) if far[k] <= reach else (0, -1)
