@@ -11,6 +11,7 @@ from mnclab.learning.findings import ASKED, PART, Finding, hints_of
 from mnclab.learning.grade import Grade
 from mnclab.learning.grading import headings, score
 from mnclab.machining.milling.strategies import STRATEGIES
+from mnclab.runs.causes import Cause
 from mnclab.text.alarm import Alarm
 from mnclab.text.file import File, table_of
 from mnclab.text.given import check_number, choice, shown, whole
@@ -19,6 +20,7 @@ KNOWN = ("strategy", "stepover", "tool", "feed")
 CLEARED = 1e-3  # of the area that the tool can reach: more is left over
 SAID = {"engagement": "on 95 % of the way the tool is engaged by up to", "time": "it takes", "lifts": "it lifts",
         "feed": "it is fed at"}  # fmt: skip
+DECIDED_BY = {"engagement": "stepover", "time": "feed", "lifts": "strategy"}
 UNITS = {"engagement": "degrees", "time": "s", "lifts": "times", "feed": "mm/min"}
 
 
@@ -49,8 +51,9 @@ def cleared(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     for name, most in exercise.asked.strategy.items():
         if have[name] > most * (1 + 1e-9):
             told = f"{SAID[name]} {have[name]:.5g} {UNITS[name]}, {most:g} at most are allowed"
-            line = span.line if (span := file.place_of(name) or file.place_of("strategy")) else 0
-            findings.append(Finding(ASKED, name, line, (told,)))
+            own = file.place_of(DECIDED_BY.get(name, name)) or file.place_of("strategy")
+            causes = tuple(Cause(span.line, f"{key} decides it too") for key in KNOWN if (span := file.place_of(key)))
+            findings.append(Finding(ASKED, name, own.line if own else 0, (told,), causes=causes))
     marks = {"part": float(not any(each.rank == PART for each in findings)),
              "asked": 1 - sum(each.rank == ASKED for each in findings) / max(1, len(exercise.asked.strategy))}  # fmt: skip
     points = {name: marks[name] for name in headings(exercise)}
