@@ -230,3 +230,13 @@ def test_a_plane_may_be_written_in_small_letters():
     whole = run("G00 X40 Z5\n", "jnc-t01", Setup(stock=cylinder(30, -50, 0))).workpiece()
     (ring,) = whole.cut("xy", -25)
     assert ring.area == pytest.approx(math.pi * 30**2, rel=1e-9)
+
+
+def test_a_sharp_boring_bar_beyond_the_axis_takes_nothing_there_and_is_a_collision():
+    """A bar of 40 x 60 bored to R8 10 deep; at its bottom the tip goes on to X-3, a point that leaves the metal as it is."""
+    bar = Tool(kind="boring", main_angle=90, auxiliary_angle=30)
+    head, blank = "T1\nG97 S500 G95 F0.1 M3\n", cylinder(diameter=40, length=60)
+    for way in ("G00 X8 Z2\nG01 Z-10\nX-3\n", "G00 X-3 Z2\nG01 Z-10\nX0\n", "G00 X-3 Z2\nG32 Z-10 F2\nG00 X0\n"):
+        made = run(f"{head}{way}G00 Z5\n", "jnc-t01", tools={1: bar}, stock=blank)
+        left = blank.volume - made.workpiece().volume
+        assert len(made.collisions()) and left == pytest.approx(math.pi * 8**2 * 10 if "X8" in way else 0.0, rel=1e-9)

@@ -372,6 +372,11 @@ def _bored(tool: Tool, shape: Floats, way: Floats, left: Any, covered: Any) -> I
     There either the bar, between tip and axis, is in the core that a short edge leaves, or a long one reaches over the axis
     and cuts backwards.
     """
+    if tool.kind == "boring" and way[:, 1].min() < -TOLERANCE:  # beyond the axis the bar stands between it and the tip
+        bar = shapely.MultiPoint(np.vstack([np.abs(way), way]) * np.repeat([(1, 1), (1, 0)], len(way), axis=0)).convex_hull
+        if met := _deepest("holder", left, bar):
+            yield met._replace(said=FULL)
+            return
     if tool.kind != "boring" or not _on_axis(left, covered):
         return
     if not tool.width:

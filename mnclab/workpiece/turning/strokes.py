@@ -102,7 +102,7 @@ def out_of_thread(path: Toolpath, row: int) -> bool:
 
 
 class _Bodies:
-    """The cutting part of every tool, worked out once; a boring bar beyond the axis has its nose alone."""
+    """The cutting part of every tool, worked out once; a boring bar beyond the axis has its nose alone, a sharp one nothing."""
 
     def __init__(self, room: _Room) -> None:
         self.room = room
@@ -116,7 +116,7 @@ class _Bodies:
             height = 0.0
         key = tool, height
         if key not in self._known:
-            self._known[key] = edges(cutting_part(tool, height))
+            self._known[key] = edges(cutting_part(tool, height)) if height or tool.corner or tool.width else []
         return self._known[key]
 
 
@@ -130,7 +130,8 @@ def _of_row(
     if path.synchronous[row] and start != end:
         yield from _thread(as_drawn(tool, thread[0]), start, end, *thread, body_of)
         return
-    body = body_of(tool, start, end)
+    if not (body := body_of(tool, start, end)):
+        return
     sweep = float(path.sweep[row] * path.axis[row, 1]) if path.kind[row] == Kind.ARC else 0.0
     if sweep and not cutting.from_home[row]:
         centre = _centre(start, end, sweep) or (float(path.centre[row, 2]), float(path.centre[row, 0]) - axis)
@@ -181,7 +182,7 @@ def _thread(
         found = along_line(body, start, end)
         if found is not None:
             yield found
-    if not pitch or length / pitch > MOST_TEETH:
+    if not pitch or length / pitch > MOST_TEETH or not (body or tap):
         return
     whole = np.arange(math.ceil(turned - 1e-9), math.floor(turned + length / pitch + 1e-9) + 1)
     shares = np.clip(pitch * (whole - turned) / length, 0.0, 1.0)
