@@ -11,6 +11,7 @@ import numpy as np
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, SLOW, Finding
 from mnclab.path.toolpath import Kind
+from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 
 
@@ -25,8 +26,10 @@ def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
     """What an answer has not that it was asked for, and what it has that it must not."""
     asked, lines = exercise.asked, list(executed(run))
     for code in asked.must:
-        if first_line(code, lines) is None:
+        if (line := first_line(code, lines)) is None:
             yield _without(code)
+        elif code in SIDES and run.stock is not None and not _compensated(run):
+            yield Finding(ASKED, f"without {code}", line, (f"the task asks for {code}, and it is not on where the tool cuts",))
     for code in asked.must_not:
         if (line := first_line(code, lines)) is not None:
             yield Finding(ASKED, f"with {code}", line, (f"the task does not allow {code}",))
@@ -48,6 +51,14 @@ def unwritten(exercise: Exercise, run: Run) -> Iterator[Finding]:
     """What a program that stops was asked for and does not have in any block: G42 is written where G41 was meant."""
     lines = [(0, " ".join(run.program.code_of(k))) for k in range(len(run.program))]
     return (_without(code) for code in exercise.asked.must if first_line(code, lines) is None)
+
+
+SIDES = ("G41", "G42", "RL", "RR")  # written and taken back in the air they are no compensation
+
+
+def _compensated(run: Run) -> bool:
+    """Whether a contour is cut with radius compensation."""
+    return any(run.history.value("side", step) for step in set(run.toolpath.step[cutting_of(run).inside].tolist()))
 
 
 def _without(code: str) -> Finding:
@@ -122,13 +133,16 @@ def _line_of_tool(run: Run, number: int) -> int:
     return int(run.toolpath.line[rows[0]]) if len(rows) else 0
 
 
+NAMED = re.compile(r'"[^"]*"|(?<=PGM )\s*\S+')  # LBL "RL" and BEGIN PGM RL are no compensation
+
+
 def executed(run: Run) -> Iterator[tuple[int, str]]:
-    """The lines of the program that were run, each with its text before a comment, in capitals."""
+    """The lines of the program that were run, each with its text before a comment, without names, in capitals."""
     program = run.program
     blocks = np.unique(run.steps.block[run.steps.program == 0])
     for block in blocks[blocks < len(program)].tolist():
         line = int(program.line_of(block))
-        yield line, " ".join(program.code_of(block)).upper()
+        yield line, NAMED.sub(" ", " ".join(program.code_of(block)).upper())
 
 
 def first_line(code: str, lines: list[tuple[int, str]]) -> int | None:

@@ -153,7 +153,7 @@ def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> 
     named: dict[tuple[str, str], list[Any]] = {}
     begun = set()
     for row in difference.features:
-        if row.ok and row.measure != "form" and not had.get((row.side, row.feature, row.measure)):
+        if row.verdict == "ok" and row.measure != "form" and not had.get((row.side, row.feature, row.measure)):
             begun.add((row.side, row.feature))
         if not row.ok:
             named.setdefault((row.side, row.feature), []).append(row)
@@ -346,9 +346,9 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
             moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
             line = int(path.line[moved[-1] if len(moved) else row])
             yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row), own)
-        if (shallow := found.shallow(thread)) > tolerance:
+        if abs(shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
-            sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
+            sized = f"{name}: its depth is {abs(shallow):.3f} mm too {'shallow' if shallow > 0 else 'deep'}"
             yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
 
 
