@@ -77,8 +77,11 @@ NAMES = {
 
 
 def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
-    found = {cut.tool: cut for cut in run.cutting_data()}
-    for wanted in exercise.asked.cutting:
+    asked, tools = exercise.asked.cutting, run.tools_that_cut[0]
+    mills = {number for number, tool in tools.items() if not run.toolpath.lathe and tool.kind != "drill"}
+    material = any(each.ae or (each.ap and each.tool in mills) for each in asked)  # others have the depth of their passes
+    found = {cut.tool: cut for cut in run.cutting_data(material=material)}
+    for wanted in asked:
         cut = found.get(wanted.tool)
         if cut is None:
             told = f"tool {wanted.tool} cuts nothing: does its spindle turn, and does it move at feed?"
