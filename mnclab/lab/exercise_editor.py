@@ -69,6 +69,7 @@ def exercise_editor(found: Exercise, folder: str | Path = ".") -> Any:
         grade = DRAWING.submit(graded, found, text).result()
         live.grade, live.graded = grade, text
         told.value = grade_card(grade, differs=False)
+        told.remove_class("mnclab-old")  # the picture of the part is yet to come
         part.value = DRAWING.submit(_part_of, grade).result()
         lay()
         if part.value:

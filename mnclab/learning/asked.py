@@ -11,6 +11,7 @@ import numpy as np
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, SLOW, Finding
 from mnclab.path.toolpath import Kind
+from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 
 
@@ -25,8 +26,10 @@ def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
     """What an answer has not that it was asked for, and what it has that it must not."""
     asked, lines = exercise.asked, list(executed(run))
     for code in asked.must:
-        if first_line(code, lines) is None:
+        if (line := first_line(code, lines)) is None:
             yield _without(code)
+        elif code in SIDES and run.stock is not None and not _compensated(run):
+            yield Finding(ASKED, f"without {code}", line, (f"the task asks for {code}, and it is not on where the tool cuts",))
     for code in asked.must_not:
         if (line := first_line(code, lines)) is not None:
             yield Finding(ASKED, f"with {code}", line, (f"the task does not allow {code}",))
@@ -50,6 +53,14 @@ def unwritten(exercise: Exercise, run: Run) -> Iterator[Finding]:
     return (_without(code) for code in exercise.asked.must if first_line(code, lines) is None)
 
 
+SIDES = ("G41", "G42", "RL", "RR")  # written and taken back in the air they are no compensation
+
+
+def _compensated(run: Run) -> bool:
+    """Whether a contour is cut with radius compensation."""
+    return any(run.history.value("side", step) for step in set(run.toolpath.step[cutting_of(run).inside].tolist()))
+
+
 def _without(code: str) -> Finding:
     return Finding(ASKED, f"without {code}", 0, (f"the task asks for {code}, and no block that was run has it",))
 
@@ -66,8 +77,11 @@ NAMES = {
 
 
 def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
-    found = {cut.tool: cut for cut in run.cutting_data()}
-    for wanted in exercise.asked.cutting:
+    asked, tools = exercise.asked.cutting, run.tools_that_cut[0]
+    mills = {number for number, tool in tools.items() if not run.toolpath.lathe and tool.kind != "drill"}
+    material = any(each.ae or (each.ap and each.tool in mills) for each in asked)  # others have the depth of their passes
+    found = {cut.tool: cut for cut in run.cutting_data(material=material)}
+    for wanted in asked:
         cut = found.get(wanted.tool)
         if cut is None:
             told = f"tool {wanted.tool} cuts nothing: does its spindle turn, and does it move at feed?"
@@ -124,13 +138,16 @@ def _line_of_tool(run: Run, number: int) -> int:
     return int(run.toolpath.line[rows[0]]) if len(rows) else 0
 
 
+NAMED = re.compile(r'"[^"]*"|(?<=PGM )\s*\S+')  # LBL "RL" and BEGIN PGM RL are no compensation
+
+
 def executed(run: Run) -> Iterator[tuple[int, str]]:
-    """The lines of the program that were run, each with its text before a comment, in capitals."""
+    """The lines of the program that were run, each with its text before a comment, without names, in capitals."""
     program = run.program
     blocks = np.unique(run.steps.block[run.steps.program == 0])
     for block in blocks[blocks < len(program)].tolist():
         line = int(program.line_of(block))
-        yield line, " ".join(program.code_of(block)).upper()
+        yield line, NAMED.sub(" ", " ".join(program.code_of(block)).upper())
 
 
 def first_line(code: str, lines: list[tuple[int, str]]) -> int | None:

@@ -161,7 +161,7 @@ def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> 
     named: dict[tuple[str, str], list[Any]] = {}
     begun = set()
     for row in difference.features:
-        if row.ok and row.measure != "form" and not had.get((row.side, row.feature, row.measure)):
+        if row.verdict == "ok" and row.measure != "form" and not had.get((row.side, row.feature, row.measure)):
             begun.add((row.side, row.feature))
         if not row.ok:
             named.setdefault((row.side, row.feature), []).append(row)
@@ -337,9 +337,9 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
             told, line = f"{name}: a pass does not run in the groove of the others", _line_of_z(path, row)
             steps = (told, f"{told}: where along Z does it begin?")
             yield Finding(PART, f"{name} begins", line, steps, _start(path, row), begins)
-        if (shallow := found.shallow(thread)) > tolerance:
+        if abs(shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
-            sized = f"{name}: its depth is {shallow:.3f} mm too shallow"
+            sized = f"{name}: its depth is {abs(shallow):.3f} mm too {'shallow' if shallow > 0 else 'deep'}"
             yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
 
 

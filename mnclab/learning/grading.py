@@ -186,7 +186,12 @@ def blank_as_drawn(exercise: Exercise) -> dict[tuple[str, str, str], bool]:
     lathe = hasattr(exercise.design, "profile")
     before = Cutting.of_nothing(stock, lathe) if exercise.until is None else before_of(exercise)
     part = (Turned if lathe else Milled)(before)
-    return {key_of(row): row.ok for row in part.compare(exercise.design, exercise.tolerance).features}
+    return {key_of(row): row.ok for row in found_of(part.compare(exercise.design, exercise.tolerance))}
+
+
+def found_of(difference: Any) -> Iterator[Any]:
+    """The measures of which something is known: what was not measured is neither made nor spoilt."""
+    return (row for row in difference.features if row.verdict in ("ok", "out", "not cut"))
 
 
 def key_of(row: Any) -> tuple[str, str, str]:
@@ -199,7 +204,7 @@ def part_mark(difference: Any, untouched: Mapping[tuple[str, str, str], bool]) -
     had and the program spoilt."""
     made: dict[tuple[str, str], list[bool]] = {}
     spoilt = 0
-    for row in difference.features:
+    for row in found_of(difference):
         if not untouched.get(key_of(row), False):
             made.setdefault((row.side, row.feature), []).append(row.ok)
         elif not row.ok:

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from html import escape
@@ -22,6 +22,7 @@ from mnclab.learning.card import page
 from mnclab.learning.exercise import exercise, files, files_of_house
 from mnclab.learning.grading import text_of
 from mnclab.text.alarm import Alarm
+from mnclab.text.file import decode
 from mnclab.text.given import check_number, fitting, shown, whole
 from mnclab.text.tables import Rows, html_table
 
@@ -35,6 +36,9 @@ SLOW_TO_OPEN = (
 )  # fmt: skip
 UNKNOWN = "its name is not that of an exercise, such as mnc-03.mnc"
 UNTOUCHED = "not handed in: it is as it was given"
+NOTHING = "nothing was handed in"
+NO_FILE = "a link, and no file: an answer is one that the pupil wrote"
+ELSEWHERE = "not graded: answers lie in the folder of their pupil, in none below it"
 BESIDE = (".toml", ".html", ".json")  # files that are no answers
 COMMON = 8  # faults that the page of a class names
 
@@ -53,7 +57,7 @@ class Mark(NamedTuple):
     @property
     def handed_in(self) -> bool:
         """Whether it is an answer to an exercise that somebody has worked at."""
-        return self.refused not in (UNKNOWN, UNTOUCHED)
+        return self.refused not in (UNKNOWN, UNTOUCHED, NOTHING, ELSEWHERE)
 
 
 class Marks(Rows[Mark]):
@@ -92,8 +96,9 @@ def mark(
     """
     if jobs is not None:
         check_number(whole(jobs, "jobs"), "jobs", at_least=1)
-    answers, known = list(_answers(Path(folder))), files() | files_of_house() | own(exercises)
-    if not any(name in known for _, name, _ in answers):
+    known = files() | files_of_house() | own(exercises)
+    answers = list(_answers(Path(folder), known))
+    if not any(name in known for _, name, *_ in answers):
         way = "a folder a pupil, files such as ivanov/mnc-03.mnc; exercises of your own are named: --exercises mine.toml"
         raise Alarm(f"there is no answer in {folder}", hint=way)
     idle: SimpleQueue[_Grader] = SimpleQueue()
@@ -101,10 +106,10 @@ def mark(
     for each in graders:
         idle.put(each)
 
-    def one(answer: tuple[str, str, Path]) -> Mark:
-        pupil, name, path = answer
-        if name not in known:
-            return Mark(pupil, path.name, 0.0, False, refused=UNKNOWN)
+    def one(answer: tuple[str, str, Path, str]) -> Mark:
+        pupil, name, path, why = answer
+        if why:
+            return Mark(pupil, name, 0.0, False, refused=why)
         grader = idle.get()
         try:
             return _mark_of(pupil, name, grader.ask((str(path), str(known[name]), pupil if neighbours else "")))
@@ -135,15 +140,34 @@ def own(exercises: str | Path | None) -> dict[str, Path]:
     return {each.stem.lower(): each.resolve() for each in found}
 
 
-def _answers(folder: Path) -> Iterator[tuple[str, str, Path]]:
-    """(pupil, exercise, file) of every answer in a folder of folders, or in that of one pupil."""
+def _answers(folder: Path, known: Mapping[str, Path]) -> Iterator[tuple[str, str, Path, str]]:
+    """(pupil, exercise, file, why it is not graded) of all that lies in a folder of folders, or in that of one pupil."""
     if not folder.is_dir():
         raise Alarm(f"{shown(str(folder))} is no folder")
-    pupils = [each for each in sorted(folder.iterdir()) if each.is_dir() and not each.name.startswith(".")]
+    folder = Path(os.path.realpath(folder))
+    pupils = [each for each in _inside(folder) if os.path.isdir(each)]
+    lost = [each for each in _inside(folder) if pupils and each not in pupils and each.stem.lower() in known]
+    yield from (("", named(path), path, ELSEWHERE) for path in lost)
     for pupil in pupils or [folder]:
-        for path in sorted(pupil.iterdir()):
-            if path.is_file() and path.suffix not in BESIDE and not path.name.startswith("."):
-                yield pupil.name, path.stem.lower(), path
+        found = _inside(pupil)
+        for path in found:
+            name, folded = path.stem.lower(), os.path.isdir(path)
+            if folded or name not in known:
+                yield named(pupil), named(path), path, ELSEWHERE if folded else UNKNOWN
+            else:
+                yield named(pupil), name, path, "" if os.path.realpath(path) == str(path) else NO_FILE
+        if not found:
+            yield named(pupil), "", pupil, NOTHING
+
+
+def _inside(folder: Path) -> list[Path]:
+    """What may be an answer; nothing of a folder that cannot be read."""
+    return [each for each in sorted(folder.glob("*")) if each.suffix.lower() not in BESIDE and not each.name.startswith(".")]
+
+
+def named(path: Path) -> str:
+    """The name of a file or folder, in whatever code page it was packed."""
+    return decode(os.fsencode(path.name))[0]
 
 
 def _mark_of(pupil: str, name: str, found: dict[str, Any]) -> Mark:
@@ -275,8 +299,8 @@ def class_page(marks: Marks, title: str, exercises: str | Path | None = None) ->
     """The page of a class; `exercises` as of `mark`."""
     answers = [each for each in marks if each.handed_in]
     names = sorted({each.exercise for each in answers})
-    by = {(each.pupil, each.exercise): each for each in answers}
-    pupils = dict.fromkeys(each.pupil for each in marks)
+    by = {(each.pupil, each.exercise): each for each in sorted(answers, key=lambda each: each.score)}  # the best of several
+    pupils = dict.fromkeys(each.pupil for each in marks if each.pupil)
     rows = [(pupil, *(_cell(by.get((pupil, name))) for name in names)) for pupil in pupils]
     signs = "Marks of 100; ✓ passed, with all of them where no number stands; – not handed in."
     body = f"{ACROSS}<h1>{escape(title)}</h1><p>{signs}</p>"
@@ -284,7 +308,7 @@ def class_page(marks: Marks, title: str, exercises: str | Path | None = None) ->
     common = Counter((each.exercise, fault) for each in answers for fault in set(each.faults)).most_common(COMMON)
     again = [(found.lesson, f"{name}: {found.title}", f"{passed} of {tried}") for name, passed, tried in _again(answers)
              for found in [exercise(own(exercises).get(name, name))]]  # fmt: skip
-    refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused not in ("", UNTOUCHED)]
+    refused = [(each.pupil, each.exercise, each.refused) for each in marks if each.refused not in ("", UNTOUCHED, NOTHING)]
     for head, columns, table in (
         ("Often wrong", ("exercise", "fault", "answers"), [(*what, str(n)) for what, n in common]),
         ("To explain again", ("lesson", "exercise", "passed"), again),

@@ -314,13 +314,13 @@ Most = float | Mapping[int, float] | None
 @fitting
 def cutting_data(
     run: Run, limits: Limits | str | None = None, *, machine: Limits | str | None = None,
-    vc: Most = None, fz: Most = None, kc: float | None = None,
+    vc: Most = None, fz: Most = None, kc: float | None = None, material: bool = True,
 ) -> CuttingData:  # fmt: skip
     """Spindle and cutting speed, feed a tooth, depth and width of cut, mean chip thickness and removal rate of each tool.
 
     `limits` or `machine` as in `profile`; `vc` m/min and `fz` mm are the greatest that a tool bears, a number for all or a
-    dict by tool number; with `kc` N/mm², the specific cutting force of the material, it has the power at the spindle. The
-    formulas are in `mnclab.workpiece.cutting_data`.
+    dict by tool number; with `kc` N/mm², the specific cutting force of the material, it has the power at the spindle. Without
+    `material` there are speeds and feeds alone, which takes half the time. The formulas are in `mnclab.workpiece.cutting_data`.
     """
     (tools, numbers), profile = run.tools_that_cut, run.profile(limits, machine=machine)
     most = {name: _of_tools(given, name, tools) for name, given in (("vc", vc), ("fz", fz)) if given is not None}
@@ -335,7 +335,7 @@ def cutting_data(
             except Alarm as alarm:  # such as of a blank that no lathe turns
                 unknown = f"Of this blank ({alarm.message})"
     return data_of(
-        run.toolpath, tools, numbers, profile.limits, found, most=most, kc=kc, reach=run.reach, unknown=unknown
+        run.toolpath, tools, numbers, profile.limits, found, most=most, kc=kc, reach=run.reach, unknown=unknown, material=material
     )
 
 

@@ -120,7 +120,7 @@ def grade(chosen: argparse.Namespace) -> int:
 
 def _class(folder: Path, chosen: argparse.Namespace) -> int:
     """Grade a class as the command line says; status 1 where an answer has not passed."""
-    mark, class_page = (opened("mnclab.learning.marking", name) for name in ("mark", "class_page"))
+    mark, class_page, named = (opened("mnclab.learning.marking", name) for name in ("mark", "class_page", "named"))
     said = time.monotonic()
 
     def told(done: int, of: int) -> None:
@@ -132,7 +132,7 @@ def _class(folder: Path, chosen: argparse.Namespace) -> int:
     marks = mark(folder, neighbours=chosen.neighbours, exercises=chosen.exercises, told=told)
     if chosen.html:
         with replaced(chosen.html) as beside:
-            beside.write_text(class_page(marks, folder.resolve().name, chosen.exercises), encoding="utf-8")
+            beside.write_text(class_page(marks, named(folder.resolve()), chosen.exercises), encoding="utf-8")
     if chosen.csv is not None:
         sensible(write_table, chosen.csv, marks.csv())
     if chosen.json:

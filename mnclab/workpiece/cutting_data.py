@@ -115,26 +115,28 @@ def said(pair: Pair | None, unit: float, digits: int, open_: bool = False) -> st
 def cutting_data(
     path: Toolpath, tools: Mapping[int, Tool], numbers: Index, limits: Limits, removal: Removal | None = None,
     *, most: Mapping[str, Mapping[int, float]] | None = None, kc: float | None = None, reach: str = "",
-    unknown: str = "Without a blank",
+    unknown: str = "Without a blank", material: bool = True,
 ) -> CuttingData:  # fmt: skip
     """The data of each tool of a path; `numbers` (n,) are the tools of its rows.
 
     With a `removal` only what takes material away counts, and depth, width, chip and rate are known. `most` holds the greatest
     "vc" m/min and "fz" mm by the number of a tool, `kc` N/mm² the specific cutting force, for the power. `reach` is
-    how far a run went that stopped before its end, `unknown` why there is no removal.
+    how far a run went that stopped before its end, `unknown` why there is no removal. Without `material` nothing is worked out
+    of what the rows meet.
     """
     kinds = np.isin(path.kind, (Kind.LINE, Kind.ARC)) & (path.lengths > 0)
     found: list[ToolCut] = []
     for number in dict.fromkeys(numbers[kinds].tolist()):
         tool, rows = tools.get(number, Tool()), np.flatnonzero(kinds & (numbers == number))
         if number and tool.kind not in UNJUDGED:
-            found += _cut(path, number, tool, rows, limits, removal, most or {}, kc)
+            found += _cut(path, number, tool, rows, limits, removal, most or {}, kc, material)
     known = [f"Known only {reach}."] if reach else []
-    return CuttingData(found, path.unit, [*known, *_notes(found, path, removal, limits, unknown)])
+    known += [] if material else ["ap, ae, hm and Q were not asked for."]
+    return CuttingData(found, path.unit, [*known, *_notes(found, path, removal, limits, unknown, material)])
 
 
 def _notes(
-    found: Sequence[ToolCut], path: Toolpath, removal: Removal | None, limits: Limits, unknown: str
+    found: Sequence[ToolCut], path: Toolpath, removal: Removal | None, limits: Limits, unknown: str, material: bool
 ) -> Iterator[str]:  # fmt: skip
     """How the numbers are to be read."""
     if not found:
@@ -143,9 +145,9 @@ def _notes(
         yield "vc is that at the diameter of the tip."
     if any(cut.chip for cut in found):
         yield "hm is the mean chip thickness over the engaged angle (ISO 3002-3, κ = 90°; of a drill at its point angle)."
-    if removal is None:
+    if removal is None and material:
         yield f"{unknown} ap, ae, hm and Q are not known, and moves in the air count."
-    else:
+    elif material:
         met, chip = _met(found), ", hm goes with its most Q" * any(cut.chip for cut in found)
         most = f"; {met} {'are' if ' ' in met else 'is'} the most of a row{chip}" * bool(met)
         yield f"Q most is that at a place in the material, plunges too{most}."
@@ -177,7 +179,7 @@ def _met(found: Sequence[ToolCut], chip: bool = False) -> str:
 
 def _cut(
     path: Toolpath, number: int, tool: Tool, rows: Index, limits: Limits, removal: Removal | None,
-    most: Mapping[str, Mapping[int, float]], kc: float | None,
+    most: Mapping[str, Mapping[int, float]], kc: float | None, material: bool,
 ) -> Iterator[ToolCut]:  # fmt: skip
     if removal is not None:
         rows = rows[removal.volumes[rows] > 0]
@@ -202,7 +204,7 @@ def _cut(
         if tool.kind == "drill":
             point = math.radians(tool.angle or POINTED[tool.kind])
             cut = cut._replace(chip=_pair(per_tooth * math.sin(point / 2)))
-    if removal is not None:
+    if removal is not None and material:
         cut = _with_material(_with_rate(cut, met, removal, kc), path, tool, rows, per_tooth, removal)
     _, feed = _speeds(path, met, limits)
     share = np.abs(path.end - path.start)[met] / path.lengths[met][:, None]

@@ -84,6 +84,7 @@ def test_an_alarm_is_told_at_its_place_and_below_the_text(run_cells, lab):
     write(page, "G90 S500 M3\nG1 X4,5 F100\nM30")
     fault = page.locator(".mnclab-code .mnclab-alarm")
     fault.wait_for(timeout=30_000)
+    assert page.locator(".mnclab-editor .cm-scroller").evaluate("each => each.scrollTop") == 0  # three lines are in sight
     page.locator(".mnclab-help", has_text="line 2: ").wait_for(timeout=10_000)
     fault.hover()
     page.locator(".mnclab-word", has_text="no part of a number").wait_for(timeout=10_000)

@@ -7,7 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.learning.asked import first_line, passes_of
+from mnclab.learning.asked import executed, first_line, passes_of
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
 from mnclab.learning.predicting import value_of
@@ -264,6 +264,35 @@ def test_a_number_that_variables_bring_is_told_where_it_was_typed():
     rows = text.split("\n")
     assert (rows[5][:8], rows[14], rows[16]) == ("#104=1.5", "#3=#104+#1*#105", "Z-#3")
     assert {5, 6, 7} & {*named(exercise, text, (6, "#104=1.8"))}  # it or its neighbour
+
+
+def test_a_groove_too_wide_costs_itself_and_what_was_not_measured_nothing():
+    """Of profile, groove and thread; on the bar nothing could be measured where the groove is to be."""
+    exercise = mnclab.exercise("jnc-t01-09")
+    grade = exercise.check(exercise.solution().replace("Z-29\n", "Z-28.5\n"))
+    assert grade.points["part"] == pytest.approx(2 / 3) and grade.faults == ("groove width",)
+
+
+def test_a_thread_that_is_cut_too_deep_is_told_as_one():
+    exercise = mnclab.exercise("jnc-t01-09")
+    text = exercise.solution().replace("X9.08\n", "X8.9\n")
+    hint, *_ = exercise.check(text, tried={"thread depth": 2}).hints
+    assert text.split("\n")[hint.line - 2] == "X8.9" and hint.text == "thread: its depth is 0.180 mm too deep"
+
+
+@pytest.mark.parametrize(
+    ("code", "change"),
+    [("G41", ("G1 Z-4", "G41 G1 X16 Y21 F300\nG40 X15 Y20\nG1 Z-4")), ("G41", ("M30", "G41 G1 X16 F300\nG40 X15\nM30"))],
+)
+def test_compensation_in_the_air_is_none(made, code, change):
+    grade = made(f"[asked]\nmust = ['{code}']").check(RIGHT.replace(*change))
+    assert not grade.passed and grade.hints[0].text == f"the task asks for {code}, and it is not on where the tool cuts"
+
+
+def test_names_are_no_codes():
+    text = 'BEGIN PGM RL MM\nTOOL CALL 1 Z S1600\nLBL "CHF"\nCALL PGM RND\nL X+5 R0 F100 M3\nEND PGM RL MM\n'
+    lines = list(executed(mnclab.run(text, "tnc-620", files={"RND.h": "BEGIN PGM RND MM\nL Y+5\nEND PGM RND MM\n"})))
+    assert [first_line(code, lines) for code in ("RL", "CHF", "RND", "CALL PGM")] == [None, None, None, 4]
 
 
 def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():

@@ -95,7 +95,7 @@ export const watchEditors = ({ services, CodeEditor, view, state, commands, menu
     };
     const name = { 'aria-label': root.querySelector('.mnclab-editor label').textContent, 'aria-describedby': help.id };
     const editor = services.factoryService.newDocumentEditor({
-      host, model, config: { lineNumbers: true, lineWrap: false },
+      host, model, config: { lineNumbers: true, lineWrap: false, scrollPastEnd: false },
       extensions: [faultsField, faultHover, view.EditorView.updateListener.of(moved), view.EditorView.contentAttributes.of(name)],
     });
     const shown = editor.editor;
