@@ -11,7 +11,7 @@ import numpy as np
 from mnclab.learning.exercise import Exercise
 from mnclab.learning.findings import ASKED, SLOW, Finding
 from mnclab.path.toolpath import Kind
-from mnclab.runs.material import cutting_of
+from mnclab.runs.material import cutting_of, depths_of_passes
 from mnclab.runs.run import Run
 
 
@@ -90,7 +90,7 @@ def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:
         for name, (column, said) in NAMES.items():
             if (limits := getattr(wanted, name)) is None:
                 continue
-            deep = passes_of(run, wanted.tool) if name == "ap" else {}
+            deep = depths_of_passes(run, wanted.tool) if name == "ap" else {}
             have = (min(deep), max(deep)) if deep else getattr(cut, column)
             low, high = have if have is not None else (0.0, math.inf)  # what is not known is not right
             slack = 1e-9 * abs(limits[1])
@@ -111,25 +111,6 @@ def _of_cabinet(exercise: Exercise, run: Run) -> Iterator[Finding]:
         if tool != theirs and not any(offered):
             told = f"tool {number} is none of those in the cabinet: compare its kind, angles and sizes"
             yield Finding(ASKED, "cabinet", _line_of_tool(run, number), (told,))
-
-
-def passes_of(run: Run, number: int) -> dict[float, int]:
-    """The depths of the passes on a lathe and of the pecks of a drill, by the volume that each takes away on its whole way, and
-    the line of each.
-
-    The shoulder that a pass meets at its end is so no depth of it. None of a mill.
-    """
-    path, (tools, numbers), volumes = run.toolpath, run.tools_that_cut, run.removal().volumes
-    rows = np.flatnonzero((numbers == number) & (volumes > 0))
-    tool, area = tools[number], volumes[rows] / np.pi
-    if tool.kind == "drill":
-        deep = area / tool.effective_radius**2
-    elif path.lathe:  # V = π L ((r + a)² − r²) outside, π L (r² − (r − a)²) inside
-        r, out = np.abs(path.start + path.end)[rows, 0] / 2, -1 if tool.kind == "boring" else 1
-        deep = out * (np.sqrt(np.maximum(r**2 + out * area / path.lengths[rows], 0)) - r)
-    else:
-        return {}
-    return dict(zip(deep.tolist(), path.line[rows].tolist()))
 
 
 def _line_of_tool(run: Run, number: int) -> int:

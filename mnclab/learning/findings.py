@@ -11,8 +11,7 @@ import numpy as np
 
 from mnclab.design.difference.threads import EXACT, passes_of
 from mnclab.learning.grade import HINTS, Hint
-from mnclab.path.toolpath import Kind
-from mnclab.runs.causes import Cause, beside_missing, first_move, nearest, of_alarm, of_row, spindle_line
+from mnclab.runs.causes import Cause, beside_missing, first_move, moved_last, nearest, of_alarm, of_row, spindle_line
 from mnclab.runs.material import cutting_of
 from mnclab.runs.run import Run
 from mnclab.workpiece.collision import KINDS, Collisions
@@ -241,22 +240,14 @@ TURNED, MILLED = {"diameter": 0, "length": 2, "z": 2}, {"depth": 2, "x": 0, "y":
 def _said_by(row: Any, line: int, run: Run, before: int) -> int:
     """The line that said what a measure is: where the cut that made it moves across it, the block before it that did not.
 
-    A rapid makes nothing, it leaves what the cut before it made. 0 for what was made before the first row of the answer.
+    0 for what was made before the first row of the answer.
     """
-    path, k = run.toolpath, row.row - before
+    k = row.row - before
     if not line or k < 0:
         return line if row.row < 0 else 0
     if _drilled(row, run, before):
         return line
-    axis = _axis(row, run)
-    ahead = np.flatnonzero(path.is_motion[: k + 1] & (path.program[: k + 1] == 0))
-    cuts = ahead[path.kind[ahead] != Kind.RAPID]
-    if not len(cuts):
-        return line
-    along = ahead[ahead <= cuts[-1]]
-    if axis is not None:
-        along = along[np.abs(path.end - path.start)[along, axis] > 1e-9]
-    return int(path.line[along[-1]]) if len(along) else line
+    return moved_last(run, k, _axis(row, run)) or line
 
 
 def _axis(row: Any, run: Run) -> int | None:

@@ -218,3 +218,17 @@ def nearest(
     k = int(np.flatnonzero(far <= far.min() + 1e-6)[-1])
     reach = max(within, AROUND + max((tool.radius for tool in run.tools_that_cut[0].values()), default=0.0))
     return (int(path.line[rows[k]]), int(rows[k])) if far[k] <= reach else (0, -1)
+
+
+def moved_last(run: Run, row: int, axis: int | None) -> int:
+    """The line of the last move along an axis (None: any) up to the cut that a row leaves behind; 0 for none.
+
+    A rapid makes nothing, it leaves what the cut before it made.
+    """
+    path = run.toolpath
+    ahead = np.flatnonzero(path.is_motion[: row + 1] & (path.program[: row + 1] == 0))
+    cuts = ahead[path.kind[ahead] != Kind.RAPID]
+    along = ahead[ahead <= cuts[-1]] if len(cuts) else cuts
+    if axis is not None:
+        along = along[np.abs(path.end - path.start)[along, axis] > 1e-9]
+    return int(path.line[along[-1]]) if len(along) else 0

@@ -339,6 +339,25 @@ def cutting_data(
     )
 
 
+def depths_of_passes(run: Run, number: int) -> dict[float, int]:
+    """The depths of the passes on a lathe and of the pecks of a drill, by the volume that each takes away on its whole way, and
+    the line of each.
+
+    The shoulder that a pass meets at its end is so no depth of it. None of a mill.
+    """
+    path, (tools, numbers), volumes = run.toolpath, run.tools_that_cut, run.removal().volumes
+    rows = np.flatnonzero((numbers == number) & (volumes > 0))
+    tool, area = tools[number], volumes[rows] / np.pi
+    if tool.kind == "drill":
+        deep = area / tool.effective_radius**2
+    elif path.lathe:  # V = π L ((r + a)² − r²) outside, π L (r² − (r − a)²) inside
+        r, out = np.abs(path.start + path.end)[rows, 0] / 2, -1 if tool.kind == "boring" else 1
+        deep = out * (np.sqrt(np.maximum(r**2 + out * area / path.lengths[rows], 0)) - r)
+    else:
+        return {}
+    return dict(zip(deep.tolist(), path.line[rows].tolist()))
+
+
 def _of_tools(given: Any, name: str, tools: Mapping[int, Any]) -> dict[int, float]:
     """A limit by tool number; an Alarm for what is none."""
     what = f"the greatest {name} of a tool ({'m/min' if name == 'vc' else 'mm'})"

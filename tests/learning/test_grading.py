@@ -7,10 +7,11 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
-from mnclab.learning.asked import executed, first_line, passes_of
+from mnclab.learning.asked import executed, first_line
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
 from mnclab.learning.predicting import value_of
+from mnclab.runs.material import depths_of_passes
 
 SQUARE = """
 title = "A step"
@@ -229,7 +230,7 @@ def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end(
     run = mnclab.run(text, "jnc-t01", tools={1: tool}, stock=mnclab.cylinder(diameter=40, length=60))
     last = 17**2 + (24.8 * (17.2**2 - 17**2) + 0.2 * (20**2 - 17**2)) / 27
     first = 17.2**2 + 24.8 * (20**2 - 17.2**2) / 26.8
-    deep = passes_of(run, 1)
+    deep = depths_of_passes(run, 1)
     assert (min(deep), max(deep)) == pytest.approx((last**0.5 - 17, first**0.5 - 17.2), abs=1e-3)
     assert run.cutting_data()[0].depth[1] == pytest.approx(3.0)  # that of the shoulder
 
