@@ -85,6 +85,12 @@ def test_samples_say_nothing_twice_and_no_leaders_cross(path):
     assert not [*twice(drawn)] and not [*crossing(drawn)]
 
 
+def test_where_leaders_would_cross_the_sheet_is_larger():
+    """Sixteen corners 8 mm apart have no room for their names at 1:1 on A4."""
+    drawn = drawn_of(next(path for path in EXERCISES if path.stem == "mnc-35"))
+    assert drawn.scale > 1 and not [*crossing(drawn)] and not drawn.leaders_cross
+
+
 @pytest.mark.parametrize(("make", "seed"), deep_but_one_in(12, [(make, seed) for make in (milled, turned) for seed in range(30)]))
 def test_nor_do_those_of_random_parts(make, seed):
     drawn = drawing(make(seed))

@@ -82,6 +82,11 @@ class Drawing:
         check_number(sheet, "the sheet", at_least=1, at_most=len(self.sheets))
         return self._figures[int(sheet) - 1]
 
+    @property
+    def leaders_cross(self) -> bool:
+        """Whether leaders of one view cross."""
+        return any(laid.leaders_cross for sheet in self.sheets for laid, _ in sheet.views)
+
     @cached_property
     def _figures(self) -> list[Picture]:
         return [_figure(sheet, repr(self)[1:-1]) for sheet in self.sheets]
@@ -150,6 +155,9 @@ class _Attempt:
         scales = [scale] if scale else SCALES
         seen = [each for each in scales if scale or each >= 1 or each * part >= SEEN]
         found = None if size else self._one(self._a4(), seen)
+        if found and found.leaders_cross:
+            larger = self._one(A3, [each for each in scales if each > found.scale])
+            found = larger if larger and not larger.leaders_cross else found
         found = found or self._one((size,) if size else A3, scales)
         found = found or self._several((size,) if size else A3, scales)
         if found is None:

@@ -11,16 +11,17 @@ import math
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
 
 from mnclab.design.drawing import dimension_places, section
 from mnclab.design.drawing.ink import Label, Mark, Stroke, block, hatching, origin, segment_boxes
-from mnclab.design.drawing.placing import OUTLINE, SOFT, Batch, Ground, Offers, boxes_of, spans
+from mnclab.design.drawing.placing import LEADER, OUTLINE, SOFT, Batch, Ground, Offers, boxes_of, spans
 from mnclab.design.drawing.sheet import Printed, Size, inside, scale_text
 from mnclab.design.drawing.view import Angle, Axis, Dimension, Kind, Linear, Note, Origin, Point, View
+from mnclab.geometry import shapely
 from mnclab.geometry.contours import Contour
 from mnclab.geometry.curves import Floats
 
@@ -61,6 +62,15 @@ class Laid:
     hatches: Floats
     title: Label | None
     bounds: Floats
+
+    @property
+    def leaders_cross(self) -> bool:
+        """Whether the leaders of two marks cross."""
+        of = [(k, line[1:]) for k, mark in enumerate(self.marks) for line in mark.lines if line[0] == LEADER]
+        lines = shapely.linestrings([line for _, line in of]) if of else ()
+        return any(
+            of[a][0] != of[b][0] and shapely.crosses(lines[a], lines[b]) for a, b in combinations(range(len(of)), 2)
+        )
 
 
 def lay_out(view: View, scale: float) -> Laid:
