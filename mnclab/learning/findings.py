@@ -53,7 +53,7 @@ def hints_of(
     causes = [*remarks, *(cause for each in found for cause in each.causes if cause.line)] if found else []
     hints = [*told, *(Hint(cause.line, cause.text if cause.sure else f"or here: {cause.text}") for cause in causes)]
     off = [min((abs(hint.line - each.line) for each in hints[:k]), default=9) for k, hint in enumerate(hints)]
-    ranks = [2.5 * (k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # what adds no line comes last
+    ranks = [int(k > 0 and (off[k] == 0 or hint.line == 0)) for k, hint in enumerate(told)]  # a neighbour is seen anyway
     ranks += [4 - off[k] if off[k] < 2 else 2 * (not cause.sure) for k, cause in enumerate(causes, len(told))]
     order = [k for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4][:HINTS]
     named, chosen = {hints[k].line for k in order}, []
