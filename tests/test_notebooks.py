@@ -110,7 +110,28 @@ def test_the_map_of_the_course_has_every_lesson():
     assert sorted(re.findall(r"\]\((\w+\.ipynb)\)", text)) == [path.name for path in NOTEBOOKS]
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "notebooks" / "plans").glob("*_*.md")), ids=lambda path: path.stem)
+each_plan = pytest.mark.parametrize("path", sorted((ROOT / "notebooks" / "plans").glob("*_*.md")), ids=lambda path: path.stem)
+FUNCTION = re.compile(r"\bG0*(\d+)|\b(FN ?\d+|LBL|REP|RND|CHF|CC|CR|CT|APPR \w+|DEP \w+|PATTERN DEF|GLOBAL DEF)")
+
+
+def functions_in(text):
+    return {code or word for code, word in FUNCTION.findall(text)}
+
+
+@each_plan
+def test_a_program_to_read_has_no_function_that_no_lesson_before_it_in_the_plan_names(path):
+    known, said = {each.id: each for each in mnclab.exercises()}, set()
+    for row in re.findall(r"(?m)^\| (?:\d+ )?\| .*", path.read_text("utf-8")):
+        for lesson in re.findall(r"\]\(\.\./(\w+\.ipynb)\)", row):
+            text = "\n".join(cell.source for cell in cells_of(ROOT / "notebooks" / lesson))
+            programs = [ROOT / "notebooks" / name for name in re.findall(r'"(\.\./data/[\w/-]+\.(?:h|i|mnc|jnc|nc31))"', text)]
+            said |= functions_in("\n".join([text, *(program.read_text("utf-8") for program in programs)]))
+        for name in re.findall(r"`([\w-]+-\d\d)`", row):
+            given = re.sub(r"//.*|;.*|'.*", "", known[name].template + "\n" + known[name].program)
+            assert functions_in(given) <= said, (name, functions_in(given) - said)
+
+
+@each_plan
 def test_a_plan_gives_no_exercise_before_its_lesson_and_own_dimensions_where_there_are_some(path):
     rows = [line.split("|") for line in path.read_text("utf-8").splitlines() if re.match(r"\| (\d+ )?\| ", line)]
     assert len(rows) == 36 and [row[1].strip() for row in rows[::2]] == [str(week) for week in range(1, 19)]
