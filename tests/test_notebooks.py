@@ -47,6 +47,10 @@ def test_a_lesson_begins_with_its_question_and_the_part_and_asks_for_no_python(p
     assert [cell.cell_type for cell in cells[:3]] == ["markdown", "code", "markdown"]
     assert "?" in question.source and len(question.source.split()) <= 80
     assert len(picture.source.splitlines()) <= 6 and "import mnclab as mnc" in picture.source and "plot" in picture.source
+    size = re.search(r"size=\([\d.]+, ([\d.]+)\)|width=4", picture.source)  # a region 4 wide is 3.3 high
+    high, rows = float(size[1] or 3.3), len(question.source.split("\n\n", 1)[1]) // 130 + 1
+    above = 210 + 22 * rows + 18.4 * len(picture.source.splitlines())  # of JupyterLab in 1366 x 768, measured
+    assert above + 100 * high <= 744, "the picture reaches below the first screen"
     parts = re.split(r"\*\*What you (?:will do|will learn|need)\.\*\*", head.source)
     assert len(parts) == 4 and 20 <= int(re.search(r"(\d+) minutes", parts[3])[1]) <= 45
     code = [cell.source for cell in cells if cell.cell_type == "code"]
