@@ -7,6 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
+from mnclab.learning.answers import answers_of
 from mnclab.learning.asked import first_line, pass_of
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
@@ -231,6 +232,15 @@ def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end(
     first = 17.2**2 + 24.8 * (20**2 - 17.2**2) / 26.8
     assert pass_of(run, 1) == pytest.approx((last**0.5 - 17, first**0.5 - 17.2), abs=1e-3)
     assert run.cutting_data()[0].depth[1] == pytest.approx(3.0)  # that of the shoulder
+
+
+@pytest.mark.parametrize("name", ["jnc-t01-02", "jnc-t01-05"])
+def test_diameters_where_radii_are_meant_are_told_first(name):
+    exercise = mnclab.exercise(name)
+    right = answers_of(exercise.file).model
+    grade = exercise.check(re.sub(r"\b([XU])(-?[\d.]+)", lambda word: f"{word[1]}{2 * float(word[2]):g}", right))
+    assert not grade.passed and str(grade.hints[0]) == "X is a radius here, and this program writes diameters"
+    assert "diameters" not in exercise.check(right.replace("Z-", "Z-1")).faults
 
 
 def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
