@@ -234,7 +234,7 @@ def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end(
     assert run.cutting_data()[0].depth[1] == pytest.approx(3.0)  # that of the shoulder
 
 
-@pytest.mark.parametrize("name", ["jnc-t01-02", "jnc-t01-05"])
+@pytest.mark.parametrize("name", ["jnc-t01-02", "jnc-t01-04", "jnc-t01-05"])
 def test_diameters_where_radii_are_meant_are_told_first(name):
     exercise = mnclab.exercise(name)
     right = answers_of(exercise.file).model
