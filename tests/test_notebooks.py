@@ -47,6 +47,10 @@ def test_a_lesson_begins_with_its_question_and_the_part_and_asks_for_no_python(p
     assert [cell.cell_type for cell in cells[:3]] == ["markdown", "code", "markdown"]
     assert "?" in question.source and len(question.source.split()) <= 80
     assert len(picture.source.splitlines()) <= 6 and "import mnclab as mnc" in picture.source and "plot" in picture.source
+    size = re.search(r"size=\([\d.]+, ([\d.]+)\)|width=4", picture.source)  # a region 4 wide is 3.3 high
+    high, rows = float(size[1] or 3.3), len(question.source.split("\n\n", 1)[1]) // 130 + 1
+    above = 210 + 22 * rows + 18.4 * len(picture.source.splitlines())  # of JupyterLab in 1366 x 768, measured
+    assert above + 100 * high <= 744, "the picture reaches below the first screen"
     parts = re.split(r"\*\*What you (?:will do|will learn|need)\.\*\*", head.source)
     assert len(parts) == 4 and 20 <= int(re.search(r"(\d+) minutes", parts[3])[1]) <= 45
     code = [cell.source for cell in cells if cell.cell_type == "code"]
@@ -110,7 +114,28 @@ def test_the_map_of_the_course_has_every_lesson():
     assert sorted(re.findall(r"\]\((\w+\.ipynb)\)", text)) == [path.name for path in NOTEBOOKS]
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "notebooks" / "plans").glob("*_*.md")), ids=lambda path: path.stem)
+each_plan = pytest.mark.parametrize("path", sorted((ROOT / "notebooks" / "plans").glob("*_*.md")), ids=lambda path: path.stem)
+FUNCTION = re.compile(r"\bG0*(\d+)|\b(FN ?\d+|LBL|REP|RND|CHF|CC|CR|CT|APPR \w+|DEP \w+|PATTERN DEF|GLOBAL DEF)")
+
+
+def functions_in(text):
+    return {code or word for code, word in FUNCTION.findall(text)}
+
+
+@each_plan
+def test_a_program_to_read_has_no_function_that_no_lesson_before_it_in_the_plan_names(path):
+    known, said = {each.id: each for each in mnclab.exercises()}, set()
+    for row in re.findall(r"(?m)^\| (?:\d+ )?\| .*", path.read_text("utf-8")):
+        for lesson in re.findall(r"\]\(\.\./(\w+\.ipynb)\)", row):
+            text = "\n".join(cell.source for cell in cells_of(ROOT / "notebooks" / lesson))
+            programs = [ROOT / "notebooks" / name for name in re.findall(r'"(\.\./data/[\w/-]+\.(?:h|i|mnc|jnc|nc31))"', text)]
+            said |= functions_in("\n".join([text, *(program.read_text("utf-8") for program in programs)]))
+        for name in re.findall(r"`([\w-]+-\d\d)`", row):
+            given = re.sub(r"//.*|;.*|'.*", "", known[name].template + "\n" + known[name].program)
+            assert functions_in(given) <= said, (name, functions_in(given) - said)
+
+
+@each_plan
 def test_a_plan_gives_no_exercise_before_its_lesson_and_own_dimensions_where_there_are_some(path):
     rows = [line.split("|") for line in path.read_text("utf-8").splitlines() if re.match(r"\| (\d+ )?\| ", line)]
     assert len(rows) == 36 and [row[1].strip() for row in rows[::2]] == [str(week) for week in range(1, 19)]

@@ -17,7 +17,7 @@ import numpy as np
 from mnclab.learning.answered import run_of
 from mnclab.learning.asked import economy, of_asked, unwritten, wishes
 from mnclab.learning.exercise import Exercise
-from mnclab.learning.findings import STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
+from mnclab.learning.findings import PART, STOPPED, ZERO, Finding, hints_of, of_alarms, of_danger, of_part, of_threads
 from mnclab.learning.grade import Grade
 from mnclab.learning.restarting import before_of, collisions_of, part_of
 from mnclab.runs.causes import Cause
@@ -142,7 +142,7 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
         difference = part_of(exercise, run).compare(exercise.design, exercise.tolerance)
         untouched = blank_as_drawn(exercise)
         threads = list(of_threads(exercise.design, run, exercise.tolerance))
-        findings += [*threads, *of_part(difference, run, untouched, before)]
+        findings += [*threads, *of_diameters(exercise, run, difference), *of_part(difference, run, untouched, before)]
     danger = list(of_danger(collisions_of(exercise, run), run, before))
     asked = list(of_asked(exercise, run))
     findings += danger + asked
@@ -157,7 +157,7 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
     whole = difference is None or (not threads and all(row.ok for row in difference.features))
     if whole and not danger:
         findings += slow
-    points = {name: marks.get(name, 0.0) for name in headings(exercise)}
+    points = {name: float(marks.get(name, 0.0)) for name in headings(exercise)}
     earned = not danger and points.get("part", 1.0) > 0
     remarks = (Cause(each.span.line, each.message, True) for each in run.alarms
                if each.span and not each.span.program and "the manual" not in each.message)  # which has no such word
@@ -166,6 +166,17 @@ def of_run(exercise: Exercise, run: Run, tried: Mapping[str, int], text: str = "
     passed = earned and whole and not asked and not (slow and exercise.kind in TIMED)
     marked = min(earned * score(exercise, points), 1.0 if passed else 0.99)  # what lacks something is not 100 %
     return Grade(exercise.id, marked, passed, points, hints, faults, measures, difference, run)
+
+
+def of_diameters(exercise: Exercise, run: Run, difference: Any) -> Iterator[Finding]:
+    """The commonest slip at a lathe whose X is a radius: the numbers of the drawing, which are diameters."""
+    known = {each.name for each in run.control.settings}
+    if "diameter" not in known or run.setup.settings.get("diameter") or all(row.ok for row in difference.features):
+        return
+    meant = run.again(run.setup.with_settings(diameter=True))
+    if meant.ok and all(row.ok for row in part_of(exercise, meant).compare(exercise.design, exercise.tolerance).features):
+        told = "X is a radius here, and this program writes diameters"
+        yield Finding(PART, "diameters", 0, (told,))
 
 
 def score(exercise: Exercise, points: Mapping[str, float]) -> float:

@@ -27,6 +27,9 @@ WORDS = {
     "probe, touch, measured": "test, hit", "alarm": "exception, error", "workpiece, blank, stock": "in-process model",
     "collision, gouge, rest material": "crash, overcut, leftover", "design, drawing, dimension": "target, blueprint",
     "profile": "speed plot, trajectory", "helix": "corkscrew",
+    # of the tasks of the first weeks
+    "modal, discrete, single block": "", "insert, nose radius, chuck, clamp": "jaws", "edge finder, gauge block": "",
+    "climb milling, conventional milling, engagement": "down milling, up milling", "core hole, fit": "tap drill hole",
 }  # fmt: skip
 #: What the manuals call them.
 MANUALS = (

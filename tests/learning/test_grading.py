@@ -7,6 +7,7 @@ import pytest
 
 import mnclab
 from mnclab import Alarm
+from mnclab.learning.answers import answers_of
 from mnclab.learning.asked import executed, first_line
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
@@ -294,6 +295,15 @@ def test_names_are_no_codes():
     text = 'BEGIN PGM RL MM\nTOOL CALL 1 Z S1600\nLBL "CHF"\nCALL PGM RND\nL X+5 R0 F100 M3\nEND PGM RL MM\n'
     lines = list(executed(mnclab.run(text, "tnc-620", files={"RND.h": "BEGIN PGM RND MM\nL Y+5\nEND PGM RND MM\n"})))
     assert [first_line(code, lines) for code in ("RL", "CHF", "RND", "CALL PGM")] == [None, None, None, 4]
+
+
+@pytest.mark.parametrize("name", ["jnc-t01-02", "jnc-t01-04", "jnc-t01-05"])
+def test_diameters_where_radii_are_meant_are_told_first(name):
+    exercise = mnclab.exercise(name)
+    right = answers_of(exercise.file).model
+    grade = exercise.check(re.sub(r"\b([XU])(-?[\d.]+)", lambda word: f"{word[1]}{2 * float(word[2]):g}", right))
+    assert not grade.passed and str(grade.hints[0]) == "X is a radius here, and this program writes diameters"
+    assert "diameters" not in exercise.check(right.replace("Z-", "Z-1")).faults
 
 
 def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():

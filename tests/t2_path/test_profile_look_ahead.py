@@ -91,14 +91,16 @@ def test_a_jerk_limit_is_learned_too():
     assert (found.limits.rapid, found.limits.acceleration, found.limits.jerk) == pytest.approx((60 * v, a, j), rel=1e-7)
 
 
-def test_five_times_with_errors_are_as_far_off_as_the_uncertainty_says():
-    rng, ratios = np.random.default_rng(0), []
-    for _ in range(200):
+@pytest.mark.parametrize("reading", [0.01, None])
+def test_the_uncertainty_has_the_limits_within_it_in_95_cases_of_100(reading):
+    """Of 100 draws with a chance of 0.954 each, 91 or more are within it but in 3 cases of 100."""
+    rng, within = np.random.default_rng(1), np.zeros(2)
+    for _ in range(100):
         read = {x: t + rng.normal(0, 0.01) for x, t in times_of(200.0, 800.0).items()}
-        found = mnc.fit_limits(read, reading=0.01)
-        off = found.limits.rapid - 12_000, found.limits.acceleration - 800
-        ratios.append(np.divide(off, [*found.uncertainty.values()]))
-    assert np.std(ratios, axis=0) == pytest.approx(1.0, abs=0.15)  # 200 draws: 0.05 one standard deviation
+        found = mnc.fit_limits(read, reading=reading)
+        off = np.array([found.limits.rapid - 12_000, found.limits.acceleration - 800])
+        within += np.abs(off) <= [*found.uncertainty.values()]
+    assert (within >= 91).all(), within
 
 
 def test_what_stays_unknown_is_said():
