@@ -54,8 +54,14 @@ LEVELS = [
     ("tnc-620", "CYCL DEF 251", "Q369", 2, -20, -19.9), ("tnc-620", "CYCL DEF 254", "Q216", 0, 0, 50),
     ("tnc-620", "CYCL DEF 22", "Q10", 2, 0, -10),
     ("tnc-620", "TCH PROBE 421", "Q273", 0, 0, 50), ("tnc-620", "TCH PROBE 421", "Q261", 2, 0, -5),  # of the middle of the ball
+    ("tnc-620", "TCH PROBE 418", "Q270", 0, 0, 80), ("tnc-620", "TCH PROBE 418", "Q317", 1, 0, 60),  # of centres
+    ("tnc-620", "TCH PROBE 400", "Q264", 1, 0, 10), ("tnc-620", "TCH PROBE 426", "Q265", 0, 0, 80),  # of touches
+    ("tnc-620", "TCH PROBE 414", "Q326", 0, 40, 70), ("mnc", "G414", "A", 0, 20, 80),  # from one touch to the next
+    ("tnc-620", "CYCL DEF 231", "Q235", 1, 0, 70), ("tnc-620", "CYCL DEF 232", "Q225", 0, 0, 10),
+    ("tnc-620", "CYCL DEF 20", "Q5", 2, 0, 0), ("mnc", "G303", "Z", 2, 0, 0),  # the surface, below the clearance
     ("jnc-t01", "G75", "X", 0, 0, 25), ("jnc-t01", "G75", "Z", 2, 0, -15), ("jnc-t01", "G77", "Z", 2, 0, -75),
     ("nc-31", "G77", "Z", 2, 0, -20), ("nc-31", "G77", "X", 0, 0, 15), ("nc-31", "G70", "X", 0, 0, 15),  # X3000 is 30 mm wide
+    ("nc-31", "G31", "X", 0, 0, 18),
     ("nc-31", "G31", "F", 2, 2, 0.5),  # a pitch of 1.5 mm, from the start
 ]  # fmt: skip
 
