@@ -88,7 +88,7 @@ class Speeds:
         return moves & (rates < 1.02 * rates[moves].min(initial=np.inf))
 
     def off(self, way: Array) -> tuple[Index, Array]:
-        """The places (m,) that a value moves along a way, and how far they would stand at a value of 0 from all that stands (n, m),
+        """The places (m,) that a value moves along a way, and how far they would be at a value of 0 from all that stands (n, m),
         the datum first."""
         rows = np.flatnonzero(self.own(self.speed @ way))
         still = np.append(0.0, self.place[~self.moving] @ way)
