@@ -359,6 +359,9 @@ def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
     page.get_by_role("option", name="line 6: X3000 ~").click()
     assert page.locator("#tool-X").inner_text() == "30.000" and page.locator("#tool-Z").inner_text() == "2.000"
     assert page.get_by_role("rowheader", name="X").inner_text() == "\N{DIAMETER SIGN} X"
+    page.get_by_role("button", name="3D").click()
+    axis = page.evaluate("window.player.picture.camera.project([0, 0, 0])")
+    assert all(0 < at < size for at, size in zip(axis, page.evaluate("window.player.picture.camera.size")))
 
 
 @pytest.mark.parametrize(("control", "settings", "x", "said"), [

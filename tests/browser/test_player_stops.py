@@ -273,7 +273,7 @@ def test_stops_are_listed_and_taken_away(opened):
     page.get_by_role("option", name="line 4:").click()
     page.keyboard.press("b")
     page.get_by_role("button", name="Breakpoints (1)").click()
-    page.get_by_role("button", name="line 4, block N35: N35 Y-10").click()
+    page.get_by_role("button", name="line 4, block N35: Y-10", exact=True).click()
     assert page.evaluate(HERE)["step"] == 3
     page.get_by_role("button", name="no stop at line 4, block N35").click()
     assert page.locator("#breaks li").count() == 0 and page.locator(".line.stops").count() == 0

@@ -29,7 +29,7 @@ class Picture {
         });
     };
     this.solid = [...run.stock.flat(), ...run.header.felt.corners];
-    widen(this.solid, Infinity);
+    widen([...this.solid, ...run.lathe ? [[axis, 0, this.box[0][2]]] : []], Infinity);  // a turned path says little without the axis
     widen(held, BESIDES * size(this.box));
     this.extent = Math.max(size(this.box), 1);
     this.long = this.strokes.n > LONG;
