@@ -144,10 +144,10 @@ def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Ar
             color=place.mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
-        best = None
+        best, size = None, np.ptp(_extent(text).reshape(2, 2), axis=0)  # asked once: a text is slow to measure
         for off, side in product(OFF, SIDES):
-            _put(text, side, off)
-            box = _extent(text)
+            low = marks[k] + _offset(side, off) * unit - size * (1 - np.sign(side)) / 2
+            box = np.concatenate([low, low + size])
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
             away = np.linalg.norm(marks - np.clip(marks, box[:2], box[2:]), axis=1)
@@ -155,12 +155,12 @@ def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Ar
                 continue  # it would be read as the name of another one
             covered = crossing(box + BESIDE * unit * np.array([-1, -1, 1, 1]), begin, end)
             if best is None or covered < best[0]:
-                best = covered, side, off
+                best = covered, side, off, box
         if best is None:
             text.remove()
             continue
         _put(text, best[1], best[2])
-        taken.append(_extent(text))
+        taken.append(best[3])
 
 
 def _extent(text: Text) -> Array:
@@ -172,8 +172,12 @@ def _put(text: Annotation, side: tuple[float, float], off: float) -> None:
     right, up = side
     text.set_horizontalalignment("left" if right > 0 else "right" if right else "center")
     text.set_verticalalignment("bottom" if up > 0 else "top" if up else "center")
-    both = 0.8 if right and up else 1.0
-    text.set_position((both * off * right, both * off * up))
+    text.set_position(tuple(_offset(side, off)))
+
+
+def _offset(side: tuple[float, float], off: float) -> Array:
+    """From a place to its name (2,), points."""
+    return np.array(side) * off * (0.8 if all(side) else 1.0)
 
 
 def _overlap(one: Array, other: Array) -> bool:
