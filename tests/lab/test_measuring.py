@@ -59,6 +59,7 @@ LEVELS = [
     ("tnc-620", "TCH PROBE 414", "Q326", 0, 40, 70), ("mnc", "G414", "A", 0, 20, 80),  # from one touch to the next
     ("tnc-620", "CYCL DEF 231", "Q235", 1, 0, 70), ("tnc-620", "CYCL DEF 232", "Q225", 0, 0, 10),
     ("tnc-620", "CYCL DEF 20", "Q5", 2, 0, 0), ("mnc", "G303", "Z", 2, 0, 0),  # the surface, below the clearance
+    ("tnc-620", "CYCL DEF 225", "Q203", 2, 0, 0), ("tnc-620", "CYCL DEF 267", "Q239", 2, 1, -0.5),  # from 1 mm above the stud
     ("jnc-t01", "G75", "X", 0, 0, 25), ("jnc-t01", "G75", "Z", 2, 0, -15), ("jnc-t01", "G77", "Z", 2, 0, -75),
     ("nc-31", "G77", "Z", 2, 0, -20), ("nc-31", "G77", "X", 0, 0, 15), ("nc-31", "G70", "X", 0, 0, 15),  # X3000 is 30 mm wide
     ("nc-31", "G31", "X", 0, 0, 18),
@@ -133,6 +134,11 @@ def test_an_angle_turns_about_its_middle(control, code, address, begin, sweep):
     assert isinstance(found, Angle) and math.degrees(found.sweep) == pytest.approx(sweep, abs=1e-3)
     if begin is not None:
         assert math.degrees(math.atan2(found.arm[1], found.arm[0])) == pytest.approx(begin, abs=1e-3)
+
+
+def test_no_allowance_stands_down_at_the_floor_and_not_at_the_surface():
+    found = measured("tnc-620", "CYCL DEF 251", "Q369", **{"Q369": 0.0})  # the floor is at -20, 2 below where the tool lifts off
+    assert -20 - 1e-6 <= found.begin[2] == found.end[2] <= -18 + 1e-6
 
 
 def test_a_helix_rises_by_its_pitch():

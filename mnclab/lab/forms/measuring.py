@@ -115,7 +115,8 @@ def moved(found: Speeds, unit: str) -> Measured | None:
         return angle(found)
     if "mm" in unit and heights(found):
         return level(found, AXES[2]) if found.natural(found.speed[:, 2]) else pitch(found)
-    return size(found) or offset(found) or round_about(found) or pitch(found) or sideways(found)
+    ways = size, offset, round_about, pitch, sideways
+    return next(filter(None, (way(found) for way in ([pitch, *ways] if unit == "mm/rev" else ways))), None)
 
 
 def pairs(path: Toolpath, other: Toolpath) -> tuple[Index, Index]:
@@ -180,7 +181,8 @@ def level(found: Speeds, way: Array) -> Length:
     which, k = best[int(np.argmax(often))]
     end = place[k] - way * (gap[which, k] if off[which, k] <= SAME else 0.0)
     near = not half and abs(way[2]) < SAME and rate[k] > 0 and abs(gap[0, k]) < abs(value)  # but for the clearance that is kept
-    if off[which, k] > SAME and (found.moving.all() or near or value == 0):  # a place, counted from the datum
+    surface = value == 0 and abs(way[2]) > SAME and (place @ way).min() < 0 < (place @ way).max()  # what is over it goes along
+    if surface or (off[which, k] > SAME and (found.moving.all() or near)):  # a place, counted from the datum
         end = (found.place.min(axis=0) + found.place.max(axis=0)) / 2 if found.moving.all() else end
         return Length(end - way * (end @ way), end + way * (rate[0] * value - end @ way), way)
     return Length(end - way * rate[k] * value * (2 if half else 1), end, way)
