@@ -49,7 +49,8 @@ class Picture {
     const [least, most] = this.turning ? this.turning.reach(d) : [Infinity, -Infinity];
     if (this.turning && this.turning.moves) return [least, most];
     const {strokes} = this, along = ([x, y, z]) => x * d[0] + y * d[1] + z * d[2], solid = this.solid.map(along);
-    const [low, high] = strokes.reach(d, this.fills);
+    const [lows, highs] = [0, 1].map(k => [strokes, this.contour].filter(Boolean).map(each => each.reach(d, this.fills)[k]));
+    const [low, high] = [Math.min(...lows), Math.max(...highs)];
     if (this.run.lathe || low > high) {  // the chuck, and what is turned, lie on both sides of the axis
       const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => along(this.box[k & 1].map((_, axis) => this.box[k >> axis & 1][axis])));
       return [Math.min(...corners), Math.max(...corners)];
