@@ -262,6 +262,7 @@ def test_the_open_panel_hides_no_word_and_escape_closes_it(opened):
     assert page.locator("#doing").inner_text() == "no stop from here on"
     panel, said = (page.locator(name).bounding_box() for name in ("#stopping", "#doing"))
     assert said["x"] + said["width"] < panel["x"]
+    assert len({page.get_by_label(each).bounding_box()["y"] for each in ("tool changes", "alarms", "collisions")}) == 1
     page.get_by_label("Stop when").fill("z < -1")
     page.keyboard.press("Escape")
     assert page.locator("#stopping").is_hidden() and page.evaluate("document.activeElement.id") == "picture"
