@@ -228,7 +228,7 @@ def _block(place: Array, way: Array, ball: Array, round_: bool) -> Part:
     for n in (*[len(way)] * round_, *range(3, len(way) // 2 + 1)):  # touches of a circle
         circles = [_circle(place[k : k + n], way[k : k + n]) for k in range(0, len(way), n)]
         if len(way) % n == 0 and all(off < SAME for *_, off in circles):
-            bars = [cylinder((x, y, low[2] - wide), (x, y, high[2] + wide), abs(radius)) for x, y, radius, _ in circles]
+            bars = (cylinder((x, y, low[2] - wide), (x, y, high[2] + wide), abs(radius)) for x, y, radius, _ in circles)
             return (operator.sub if circles[0][2] > 0 else operator.and_)(box(low, high), reduce(operator.or_, bars))
     if len(way) == 2 and way[0] @ way[1] > 1 - SAME:  # a line, that may lean
         chord = place[1] - place[0]
@@ -240,6 +240,6 @@ def _block(place: Array, way: Array, ball: Array, round_: bool) -> Part:
 
 def _circle(place: Array, way: Array) -> list[float]:
     """Middle, radius (below 0 where it is touched from outside) of the circle through places (n, 3), and how far off they are."""
-    lines = np.column_stack([np.repeat(np.eye(2), len(way), axis=0), way.T[:2].ravel()])  # centre + radius * way
-    found = np.linalg.lstsq(lines, place.T[:2].ravel(), rcond=None)[0]
-    return [*found.tolist(), float(np.abs(lines @ found - place.T[:2].ravel()).max())]
+    lines, flat = np.column_stack([np.repeat(np.eye(2), len(way), axis=0), way.T[:2].ravel()]), place.T[:2].ravel()
+    found = np.linalg.lstsq(lines, flat, rcond=None)[0]  # centre + radius * way
+    return [*found.tolist(), float(np.abs(lines @ found - flat).max())]

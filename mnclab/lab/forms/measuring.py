@@ -88,8 +88,7 @@ class Speeds:
         return moves & (rates < 1.02 * rates[moves].min(initial=np.inf))
 
     def off(self, way: Array) -> tuple[Index, Array]:
-        """The places (m,) that a value moves along a way, and how far they would be at a value of 0 from all that stands (n, m),
-        the datum first."""
+        """The places (m,) that a value moves along a way, and how far at 0 from what stands (n, m), the datum first."""
         rows = np.flatnonzero(self.own(self.speed @ way))
         still = np.append(0.0, self.place[~self.moving] @ way)
         return rows, (self.place[rows] - self.speed[rows] * self.value) @ way - still[:, None]
@@ -115,8 +114,8 @@ def moved(found: Speeds, unit: str) -> Measured | None:
         return angle(found)
     if "mm" in unit and heights(found):
         return level(found, AXES[2]) if found.natural(found.speed[:, 2]) else pitch(found)
-    ways = size, offset, round_about, pitch, sideways
-    return next(filter(None, (way(found) for way in ([pitch, *ways] if unit == "mm/rev" else ways))), None)
+    first = pitch(found) if unit == "mm/rev" else None
+    return first or size(found) or offset(found) or round_about(found) or pitch(found) or sideways(found)
 
 
 def pairs(path: Toolpath, other: Toolpath) -> tuple[Index, Index]:
@@ -172,7 +171,7 @@ def level(found: Speeds, way: Array) -> Length:
         sides = [rows[rate > 0][np.argmax(place[rate > 0] @ way)], rows[rate < 0][np.argmin(place[rate < 0] @ way)]]
         middle = found.place[sides].mean(axis=0)
         return Length(middle - way * found.counts * value / 2, middle + way * found.counts * value / 2, way)
-    off = np.abs(gap)  # the datum is the first choice
+    off = np.abs(gap)
     if (abs(way[2]) < SAME or Kind.PROBE in found.path.kind) and off.min() > SAME:  # the path keeps the radius of the tool off
         off = np.abs(off - found.radius)
     best = np.argwhere(np.maximum(off, SAME) <= max(float(off.min()), SAME))
@@ -180,7 +179,7 @@ def level(found: Speeds, way: Array) -> Length:
     often = (np.abs(place[best[:, 1]] @ way - (place @ way)[:, None]) < SAME).sum(axis=0)  # the level of most moves
     which, k = best[int(np.argmax(often))]
     end = place[k] - way * (gap[which, k] if off[which, k] <= SAME else 0.0)
-    near = not half and abs(way[2]) < SAME and rate[k] > 0 and abs(gap[0, k]) < abs(value)  # but for the clearance that is kept
+    near = not half and abs(way[2]) < SAME and rate[k] > 0 and abs(gap[0, k]) < abs(value)  # but for a clearance
     surface = value == 0 and abs(way[2]) > SAME and (place @ way).min() < 0 < (place @ way).max()  # what is over it goes along
     if surface or (off[which, k] > SAME and (found.moving.all() or near)):  # a place, counted from the datum
         end = (found.place.min(axis=0) + found.place.max(axis=0)) / 2 if found.moving.all() else end
@@ -238,8 +237,8 @@ def size(found: Speeds) -> Length | None:
             width = grows * found.value
             if not is_size(q[up] - q[down], q[up] - q[down] - width, 2 * found.radius):
                 continue
-            off = np.abs(found.off(way)[1])
-            if rate[up] * rate[down] == 0 and min(off.min(initial=FAR), np.abs(off - found.radius).min(initial=FAR)) < SAME:
+            off = np.abs(np.abs(found.off(way)[1]) - [[[0.0]], [[found.radius]]])
+            if rate[up] * rate[down] == 0 and off.min(initial=FAR) < SAME:
                 continue  # the side that moves is a place, counted from another one
             place = np.concatenate([found.place[cuts], path.start[cuts]])
             middle = (place[up] + place[down]) / 2
