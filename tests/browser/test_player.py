@@ -313,6 +313,17 @@ def test_what_is_cut_fills_the_picture_and_rapids_run_out_of_it(open_file, stock
     assert page.locator("#picture").bounding_box()["height"] == pane["height"] + 870 - 558
 
 
+def test_the_wall_that_the_path_keeps_inside_of_is_in_the_picture_too(open_file):
+    page = open_file(mnclab.run(Path(__file__).parents[2] / "data/programs/mnc/window.mnc"))
+    within = """() => { const {camera, contour} = window.player.picture, [w, h] = camera.size;
+        return [...contour.x].every((x, k) => { const [u, v] = camera.project([x, contour.y[k], contour.z[k]]);
+            return contour.kind[k] !== 2 || (u > 0 && u < w && v > 0 && v < h); }); }"""
+    for view in ("Top", "3D"):
+        page.get_by_role("button", name=view, exact=True).click()
+        assert page.evaluate(within)
+    assert page.locator("#legend span").all_inner_texts() == ["cut", "programmed contour", "rapid"]
+
+
 def test_rapids_are_hidden_by_a_key_and_a_button(open_file):
     """Red is what only rapids are drawn in here; a click where one ran goes nowhere."""
     page = open_file(mnclab.run(PROGRAM, "mnc"))
@@ -359,6 +370,9 @@ def test_a_lathe_opens_on_z_and_x_and_shows_diameters(open_file):
     page.get_by_role("option", name="line 6: X3000 ~").click()
     assert page.locator("#tool-X").inner_text() == "30.000" and page.locator("#tool-Z").inner_text() == "2.000"
     assert page.get_by_role("rowheader", name="X").inner_text() == "\N{DIAMETER SIGN} X"
+    page.get_by_role("button", name="3D").click()
+    axis = page.evaluate("window.player.picture.camera.project([0, 0, 0])")
+    assert all(0 < at < size for at, size in zip(axis, page.evaluate("window.player.picture.camera.size")))
 
 
 @pytest.mark.parametrize(("control", "settings", "x", "said"), [

@@ -102,6 +102,8 @@ def test_what_is_written_of_axes_stands_apart_in_every_view(opened):
 def test_a_button_lets_the_part_stand_still(opened):
     page = opened(made("table-ac"))
     button = page.get_by_role("button", name="Table turns")
+    page.set_viewport_size({"width": 1024, "height": 768})
+    assert len({round(page.get_by_role("button", name=each).bounding_box()["y"]) for each in ("Table turns", "keys")}) == 1
     assert button.get_attribute("aria-pressed") == "true"
     page.keyboard.press("End")
     page.wait_for_function("() => !window.player.waiting")

@@ -318,6 +318,7 @@ def test_escape_clears_and_then_ends_and_a_third_click_begins_anew(opened):
     assert len(clicked(page, (5, 5, 0), (9, 70, 0))) == 2
     assert len(clicked(page, (5, 70, 0))) == 1
     page.keyboard.press("Escape")
+    assert clicked(page, (-15, 40, 0)) == [] and page.locator("#doing").inner_text() == "nothing to measure there"
     assert page.evaluate("() => window.player.measure.points.length") == 0 and board.is_visible()
     page.keyboard.press("Escape")
     assert button.get_attribute("aria-pressed") == "false" and not board.is_visible() and page.locator("#modal").is_visible()

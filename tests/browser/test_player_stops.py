@@ -262,6 +262,7 @@ def test_the_open_panel_hides_no_word_and_escape_closes_it(opened):
     assert page.locator("#doing").inner_text() == "no stop from here on"
     panel, said = (page.locator(name).bounding_box() for name in ("#stopping", "#doing"))
     assert said["x"] + said["width"] < panel["x"]
+    assert len({page.get_by_label(each).bounding_box()["y"] for each in ("tool changes", "alarms", "collisions")}) == 1
     page.get_by_label("Stop when").fill("z < -1")
     page.keyboard.press("Escape")
     assert page.locator("#stopping").is_hidden() and page.evaluate("document.activeElement.id") == "picture"
@@ -273,7 +274,7 @@ def test_stops_are_listed_and_taken_away(opened):
     page.get_by_role("option", name="line 4:").click()
     page.keyboard.press("b")
     page.get_by_role("button", name="Breakpoints (1)").click()
-    page.get_by_role("button", name="line 4, block N35: N35 Y-10").click()
+    page.get_by_role("button", name="line 4, block N35: Y-10", exact=True).click()
     assert page.evaluate(HERE)["step"] == 3
     page.get_by_role("button", name="no stop at line 4, block N35").click()
     assert page.locator("#breaks li").count() == 0 and page.locator(".line.stops").count() == 0

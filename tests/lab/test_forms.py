@@ -422,7 +422,16 @@ def test_a_probe_does_not_turn_in_the_program_of_a_form():
     ("TCH PROBE 413", (62, 46, -8), 10),  # 20 mm from the middle of a stud of 20 mm
     ("TCH PROBE 410", (50, 30, -8), 10),  # the middle of a pocket of 40 by 20 mm
     ("TCH PROBE 411", (75, 30, -8), 5),  # beside a block of 40 by 20 mm
+    ("TCH PROBE 418", (20, 60, -8), 4), ("TCH PROBE 418", (50, 40, -8), -5),  # the middle of a bore, and between four of them
+    ("TCH PROBE 402", (95, 20, -8), 5), ("TCH PROBE 402", (50, 20, -8), 20),  # two studs of 20 mm about X20 and X80
+    ("TCH PROBE 1411", (75, 30, -8), 10), ("TCH PROBE 416", (70, 30, -8), 4),
 ])  # fmt: skip
 def test_a_form_that_probes_has_the_part_that_its_cycle_is_for(code, place, away):
     live = mnclab.form(code, "tnc-620")
     assert live.run.ok and live.run.setup.part([place]) == pytest.approx(away)
+
+
+def test_the_edge_that_two_touches_lie_on_may_lean():
+    live = mnclab.form("TCH PROBE 400", "tnc-620")
+    next(box for name, box in live.boxes.items() if live.fields[name].parameter.address == "Q266").value = 22
+    assert live.run.ok and live.run.setup.part([(20, 10, -8), (50, 16, -8), (80, 22, -8)]) == pytest.approx(0, abs=1e-9)

@@ -54,8 +54,15 @@ LEVELS = [
     ("tnc-620", "CYCL DEF 251", "Q369", 2, -20, -19.9), ("tnc-620", "CYCL DEF 254", "Q216", 0, 0, 50),
     ("tnc-620", "CYCL DEF 22", "Q10", 2, 0, -10),
     ("tnc-620", "TCH PROBE 421", "Q273", 0, 0, 50), ("tnc-620", "TCH PROBE 421", "Q261", 2, 0, -5),  # of the middle of the ball
+    ("tnc-620", "TCH PROBE 418", "Q270", 0, 0, 80), ("tnc-620", "TCH PROBE 418", "Q317", 1, 0, 60),  # of centres
+    ("tnc-620", "TCH PROBE 400", "Q264", 1, 0, 10), ("tnc-620", "TCH PROBE 426", "Q265", 0, 0, 80),  # of touches
+    ("tnc-620", "TCH PROBE 414", "Q326", 0, 40, 70), ("mnc", "G414", "A", 0, 20, 80),  # from one touch to the next
+    ("tnc-620", "CYCL DEF 231", "Q235", 1, 0, 70), ("tnc-620", "CYCL DEF 232", "Q225", 0, 0, 10),
+    ("tnc-620", "CYCL DEF 20", "Q5", 2, 0, 0), ("mnc", "G303", "Z", 2, 0, 0),  # the surface, below the clearance
+    ("tnc-620", "CYCL DEF 225", "Q203", 2, 0, 0), ("tnc-620", "CYCL DEF 267", "Q239", 2, 1, -0.5),  # from 1 mm above the stud
     ("jnc-t01", "G75", "X", 0, 0, 25), ("jnc-t01", "G75", "Z", 2, 0, -15), ("jnc-t01", "G77", "Z", 2, 0, -75),
     ("nc-31", "G77", "Z", 2, 0, -20), ("nc-31", "G77", "X", 0, 0, 15), ("nc-31", "G70", "X", 0, 0, 15),  # X3000 is 30 mm wide
+    ("nc-31", "G31", "X", 0, 0, 18),
     ("nc-31", "G31", "F", 2, 2, 0.5),  # a pitch of 1.5 mm, from the start
 ]  # fmt: skip
 
@@ -127,6 +134,11 @@ def test_an_angle_turns_about_its_middle(control, code, address, begin, sweep):
     assert isinstance(found, Angle) and math.degrees(found.sweep) == pytest.approx(sweep, abs=1e-3)
     if begin is not None:
         assert math.degrees(math.atan2(found.arm[1], found.arm[0])) == pytest.approx(begin, abs=1e-3)
+
+
+def test_no_allowance_stands_down_at_the_floor_and_not_at_the_surface():
+    found = measured("tnc-620", "CYCL DEF 251", "Q369", **{"Q369": 0.0})  # the floor is at -20, 2 below where the tool lifts off
+    assert -20 - 1e-6 <= found.begin[2] == found.end[2] <= -18 + 1e-6
 
 
 def test_a_helix_rises_by_its_pitch():

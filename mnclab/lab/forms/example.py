@@ -71,10 +71,7 @@ class Example:
             return None
         if self.cycle.does in (PROBES, FEELS):
             with suppress(Alarm):
-                for part in touched_parts(self.steps(values), machine.probe.clearance):
-                    machine = replace(machine, part=part)
-                    if (run := run_text(source, self.control.name, machine)).ok:
-                        return run
+                machine = replace(machine, part=touched_part(self.steps(values), machine.probe.clearance))
         return run_text(source, self.control.name, machine)
 
     def rows(self, path: Toolpath) -> Mask:
@@ -195,24 +192,20 @@ def near(path: Toolpath) -> Toolpath:
 
 # A part for a cycle that probes, where nobody gave one: a block with a wall before each touch. Where every touch lies on the
 # block that all walls enclose, the walls are its sides; else what stands around the touches is the material. A probe that goes
-# round on arcs meets a stud or a bore. Where it could not get past that, as among several holes, a pad stands before each touch.
+# round on arcs meets a stud or a bore, one that touches on several circles meets as many of them.
 
 BALL = 2.0  # mm, the radius where a touch does not say it
 BESIDE = 0.3  # of the greatest way between touches: how far the block goes beyond them
 SAME = 1e-6  # mm
 
 
-def touched_parts(found: CycleSteps, clearance: float) -> Iterator[Part]:
-    """What the touches of a cycle may meet, the best first; `clearance` (mm) of the probe table, to which an own one of the cycle
-    is added."""
-    if found.part is not None:
-        yield found.part
-        return
+def touched_part(found: CycleSteps, clearance: float) -> Part | None:
+    """What the touches of a cycle meet; `clearance` (mm) of the probe table, to which an own one of the cycle is added."""
     touches = list(_touches(found, clearance + (found.values.get("clearance") or 0.0)))
-    if touches:
-        place, way, ball = (np.array(each) for each in zip(*touches, strict=True))
-        yield _block(place, way, ball, any(isinstance(row.step, Turn) for row in found.rows))
-        yield reduce(operator.or_, map(_pad, place, way, ball))
+    if found.part is not None or not touches:
+        return found.part
+    place, way, ball = (np.array(each) for each in zip(*touches, strict=True))
+    return _block(place, way, ball, any(isinstance(row.step, Turn) for row in found.rows))
 
 
 def _touches(found: CycleSteps, gap: float) -> Iterator[tuple[Array, Array, float]]:
@@ -232,19 +225,21 @@ def _block(place: Array, way: Array, ball: Array, round_: bool) -> Part:
     wide = BESIDE * float(np.ptp(place, axis=0).max()) + 3 * float(ball.max())
     low, high = place.min(axis=0) - wide, place.max(axis=0) + wide
     high[2] = float((place[:, 2] + ball).max())
-    if round_:
-        lines = np.column_stack([np.repeat(np.eye(2), len(way), axis=0), way.T[:2].ravel()])  # centre + radius * way
-        x, y, radius = np.linalg.lstsq(lines, place.T[:2].ravel(), rcond=None)[0].tolist()
-        bar = cylinder((x, y, low[2] - wide), (x, y, high[2] + wide), abs(radius))
-        return box(low, high) - bar if radius > 0 else box(low, high) & bar
+    for n in (*[len(way)] * round_, *range(3, len(way) // 2 + 1)):  # touches of a circle
+        circles = [_circle(place[k : k + n], way[k : k + n]) for k in range(0, len(way), n)]
+        if len(way) % n == 0 and all(off < SAME for *_, off in circles):
+            bars = (cylinder((x, y, low[2] - wide), (x, y, high[2] + wide), abs(radius)) for x, y, radius, _ in circles)
+            return (operator.sub if circles[0][2] > 0 else operator.and_)(box(low, high), reduce(operator.or_, bars))
+    if len(way) == 2 and way[0] @ way[1] > 1 - SAME:  # a line, that may lean
+        chord = place[1] - place[0]
+        way = way - np.outer(way @ chord, chord) / max(chord @ chord, SAME)
     walls = [plane(*each) for each in zip(place, -way)]
     on_it = bool((np.einsum("jk,ijk->ij", way, place[:, None] - place) > -SAME).all())
     return reduce(operator.and_ if on_it else operator.or_, walls) & box(low, high)
 
 
-def _pad(place: Array, ahead: Array, ball: float) -> Part:
-    side = np.cross((0.0, 0.0, 1.0), ahead) if abs(ahead[2]) < 0.9 else np.cross(ahead, (1.0, 0.0, 0.0))
-    side /= np.linalg.norm(side)
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = np.column_stack([ahead, side, np.cross(ahead, side)]), place
-    return box((0.0, -ball, -ball), (ball, ball, ball)).placed(frame)
+def _circle(place: Array, way: Array) -> list[float]:
+    """Middle, radius (below 0 where it is touched from outside) of the circle through places (n, 3), and how far off they are."""
+    lines, flat = np.column_stack([np.repeat(np.eye(2), len(way), axis=0), way.T[:2].ravel()]), place.T[:2].ravel()
+    found = np.linalg.lstsq(lines, flat, rcond=None)[0]  # centre + radius * way
+    return [*found.tolist(), float(np.abs(lines @ found - flat).max())]

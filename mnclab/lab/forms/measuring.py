@@ -87,6 +87,12 @@ class Speeds:
         moves = rates > STILL * self.counts
         return moves & (rates < 1.02 * rates[moves].min(initial=np.inf))
 
+    def off(self, way: Array) -> tuple[Index, Array]:
+        """The places (m,) that a value moves along a way, and how far at 0 from what stands (n, m), the datum first."""
+        rows = np.flatnonzero(self.own(self.speed @ way))
+        still = np.append(0.0, self.place[~self.moving] @ way)
+        return rows, (self.place[rows] - self.speed[rows] * self.value) @ way - still[:, None]
+
     def natural(self, rates: Array) -> bool:
         """Whether a length, or a diameter, moves something as fast."""
         return any(bool((np.abs(np.abs(rates) - each) < ALIKE * each).any()) for each in (self.counts, self.counts / 2))
@@ -108,7 +114,8 @@ def moved(found: Speeds, unit: str) -> Measured | None:
         return angle(found)
     if "mm" in unit and heights(found):
         return level(found, AXES[2]) if found.natural(found.speed[:, 2]) else pitch(found)
-    return size(found) or offset(found) or round_about(found) or pitch(found) or sideways(found)
+    first = pitch(found) if unit == "mm/rev" else None
+    return first or size(found) or offset(found) or round_about(found) or pitch(found) or sideways(found)
 
 
 def pairs(path: Toolpath, other: Toolpath) -> tuple[Index, Index]:
@@ -157,17 +164,13 @@ def heights(found: Speeds) -> bool:
 
 def level(found: Speeds, way: Array) -> Length:
     """Where places stand along a direction, counted from what stands still, or from the datum where all go along."""
-    rates = found.speed @ way
-    rows = np.flatnonzero(found.own(rates))
-    place, rate, value = found.place[rows], rates[rows], found.value
+    rows, gap = found.off(way)
+    place, rate, value = found.place[rows], found.speed[rows] @ way, found.value
     half = not found.path.lathe and abs(abs(rate[0]) - found.counts / 2) < ALIKE * found.counts  # one side of what has two
     if half and rate.min() < 0 < rate.max():
         sides = [rows[rate > 0][np.argmax(place[rate > 0] @ way)], rows[rate < 0][np.argmin(place[rate < 0] @ way)]]
         middle = found.place[sides].mean(axis=0)
         return Length(middle - way * found.counts * value / 2, middle + way * found.counts * value / 2, way)
-    base = place @ way - rate * value
-    still = np.append(0.0, found.place[~found.moving] @ way)  # the datum is the first choice
-    gap = base - still[:, None]
     off = np.abs(gap)
     if (abs(way[2]) < SAME or Kind.PROBE in found.path.kind) and off.min() > SAME:  # the path keeps the radius of the tool off
         off = np.abs(off - found.radius)
@@ -175,11 +178,12 @@ def level(found: Speeds, way: Array) -> Length:
     best = best[best[:, 0] == 0] if not best[0, 0] else best
     often = (np.abs(place[best[:, 1]] @ way - (place @ way)[:, None]) < SAME).sum(axis=0)  # the level of most moves
     which, k = best[int(np.argmax(often))]
-    if off[which, k] > SAME and found.moving.all():  # all of it goes along: a place counted from the datum
-        middle = (found.place.min(axis=0) + found.place.max(axis=0)) / 2
-        end = middle + way * (rate[0] * value - middle @ way)
-        return Length(end - way * rate[0] * value, end, way)
-    end = place[k] + way * (-gap[which, k] if off[which, k] <= SAME else 0.0)
+    end = place[k] - way * (gap[which, k] if off[which, k] <= SAME else 0.0)
+    near = not half and abs(way[2]) < SAME and rate[k] > 0 and abs(gap[0, k]) < abs(value)  # but for a clearance
+    surface = value == 0 and abs(way[2]) > SAME and (place @ way).min() < 0 < (place @ way).max()  # what is over it goes along
+    if surface or (off[which, k] > SAME and (found.moving.all() or near)):  # a place, counted from the datum
+        end = (found.place.min(axis=0) + found.place.max(axis=0)) / 2 if found.moving.all() else end
+        return Length(end - way * (end @ way), end + way * (rate[0] * value - end @ way), way)
     return Length(end - way * rate[k] * value * (2 if half else 1), end, way)
 
 
@@ -233,6 +237,9 @@ def size(found: Speeds) -> Length | None:
             width = grows * found.value
             if not is_size(q[up] - q[down], q[up] - q[down] - width, 2 * found.radius):
                 continue
+            off = np.abs(np.abs(found.off(way)[1]) - [[[0.0]], [[found.radius]]])
+            if rate[up] * rate[down] == 0 and off.min(initial=FAR) < SAME:
+                continue  # the side that moves is a place, counted from another one
             place = np.concatenate([found.place[cuts], path.start[cuts]])
             middle = (place[up] + place[down]) / 2
             return Length(middle - way * width / 2, middle + way * width / 2, way)

@@ -61,7 +61,7 @@ class Measure {
   click(x, y, finger) {
     const found = this.place(x, y, finger);
     this.point();
-    if (!found) return this.said("nothing to measure there");
+    if (!found) return this.page.tell("nothing to measure there");
     this.points = this.points.length === 1 ? [...this.points, found] : [found];
     this.write();
     this.draw();

@@ -29,7 +29,7 @@ class Picture {
         });
     };
     this.solid = [...run.stock.flat(), ...run.header.felt.corners];
-    widen(this.solid, Infinity);
+    widen([...this.solid, ...run.lathe ? [[axis, 0, this.box[0][2]]] : []], Infinity);  // a turned path says little without the axis
     widen(held, BESIDES * size(this.box));
     this.extent = Math.max(size(this.box), 1);
     this.long = this.strokes.n > LONG;
@@ -49,7 +49,8 @@ class Picture {
     const [least, most] = this.turning ? this.turning.reach(d) : [Infinity, -Infinity];
     if (this.turning && this.turning.moves) return [least, most];
     const {strokes} = this, along = ([x, y, z]) => x * d[0] + y * d[1] + z * d[2], solid = this.solid.map(along);
-    const [low, high] = strokes.reach(d, this.fills);
+    const [lows, highs] = [0, 1].map(k => [strokes, this.contour].filter(Boolean).map(each => each.reach(d, this.fills)[k]));
+    const [low, high] = [Math.min(...lows), Math.max(...highs)];
     if (this.run.lathe || low > high) {  // the chuck, and what is turned, lie on both sides of the axis
       const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => along(this.box[k & 1].map((_, axis) => this.box[k >> axis & 1][axis])));
       return [Math.min(...corners), Math.max(...corners)];

@@ -248,8 +248,9 @@ class PlayerPage {
     this.legend();
   }
   legend() {
-    const {shades, picture: {strokes, rapids}} = this, kinds = new Set(strokes.kind);
+    const {shades, picture: {strokes, rapids, contour}} = this, kinds = new Set(strokes.kind);
     const words = shades.of ? shades.classes.filter((_, k) => shades.seen.has(k)) : kinds.has(CUTS) ? [["cut", "cut"]] : [];
+    if (contour) words.push(["contour", "programmed contour"]);
     if (rapids && kinds.has(RAPIDS)) words.push(["rapid", "rapid", "dashed"]);
     if (kinds.has(PROBINGS)) words.push(["probing", "probing", "dotted"]);
     this.find("legend").replaceChildren(...shades.title ? [shades.title] : [], ...words.map(word => this.sample(...word)));

@@ -97,7 +97,7 @@ class Stops {
       const line = run.lines[program][block], place = page.listing.place(program, line);
       const away = button("×", `no stop at ${place}`, () => this.turn(program, line));
       away.setAttribute("aria-label", away.title);
-      return made("li", {}, button(`${place}: ${run.texts[program][line - 1].trim()}`, "goes there", () => page.goLine(program, line)), away);
+      return made("li", {}, button(`${place}: ${run.texts[program][line - 1].replace(NUMBERED, "").trim()}`, "goes there", () => page.goLine(program, line)), away);
     });
     this.find("breaks").replaceChildren(...items);
     this.find("stops").textContent = this.all.length ? `Breakpoints (${this.all.length})` : "Breakpoints";

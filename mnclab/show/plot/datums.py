@@ -29,6 +29,7 @@ LOOKED_AT = 20_000  # strokes that a name avoids
 OFF = (8.0, 13.0, 20.0)  # points from a cross to its name, tried one after the other
 BESIDE = 1.0  # points from a name to the middle of a line: half of its width
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1), (0.1, 1), (-0.1, 1), (0.1, -1), (-0.1, -1))
+SPOTS = [(side, off * np.array(side) * (0.8 if all(side) else 1.0)) for off, side in product(OFF, SIDES)]  # points
 
 
 class DatumCross(NamedTuple):
@@ -144,23 +145,23 @@ def write_names(ax: Axes, view: View, places: Sequence[DatumCross], occupied: Ar
             color=place.mark.colour, zorder=4.5,
             parse_math=False, bbox={"boxstyle": "square,pad=0.1", "fc": colours.PAPER, "ec": "none", "alpha": 0.75},
         )  # fmt: skip
-        best = None
-        for off, side in product(OFF, SIDES):
-            _put(text, side, off)
-            box = _extent(text)
+        best, size = None, np.ptp(_extent(text).reshape(2, 2), axis=0)  # asked once: a text is slow to measure
+        for side, away in SPOTS:
+            low = marks[k] + away * unit - size * (1 - np.sign(side)) / 2
+            box = np.concatenate([low, low + size])
             if (box[:2] < inner[:2]).any() or (box[2:] > inner[2:]).any() or any(_overlap(box, t) for t in taken):
                 continue
-            away = np.linalg.norm(marks - np.clip(marks, box[:2], box[2:]), axis=1)
-            if (away[np.linalg.norm(marks - marks[k], axis=1) > 6 * unit] <= away[k]).any():
+            gap = np.linalg.norm(marks - np.clip(marks, box[:2], box[2:]), axis=1)
+            if (gap[np.linalg.norm(marks - marks[k], axis=1) > 6 * unit] <= gap[k]).any():
                 continue  # it would be read as the name of another one
             covered = crossing(box + BESIDE * unit * np.array([-1, -1, 1, 1]), begin, end)
             if best is None or covered < best[0]:
-                best = covered, side, off
+                best = covered, side, away, box
         if best is None:
             text.remove()
             continue
         _put(text, best[1], best[2])
-        taken.append(_extent(text))
+        taken.append(best[3])
 
 
 def _extent(text: Text) -> Array:
@@ -168,12 +169,11 @@ def _extent(text: Text) -> Array:
     return np.asarray(text.get_window_extent().extents)
 
 
-def _put(text: Annotation, side: tuple[float, float], off: float) -> None:
+def _put(text: Annotation, side: tuple[float, float], away: Array) -> None:
     right, up = side
     text.set_horizontalalignment("left" if right > 0 else "right" if right else "center")
     text.set_verticalalignment("bottom" if up > 0 else "top" if up else "center")
-    both = 0.8 if right and up else 1.0
-    text.set_position((both * off * right, both * off * up))
+    text.set_position(tuple(away))
 
 
 def _overlap(one: Array, other: Array) -> bool:

@@ -85,22 +85,18 @@ def write_beside(
 
 def _free(spot: Array, disc: float, half: Array, wish: Array, taken: Array, frame: Array, drawn: Array) -> Array | None:
     """The middle of the best free box beside a spot, in points; None if there is none."""
-    best, least = None, math.inf
-    for out in DISTANCES:
-        for turn in np.arange(TURNS) * (2 * math.pi / TURNS):
-            way = np.array([math.cos(turn), math.sin(turn)])
-            reach = min(half[k] / abs(way[k]) if abs(way[k]) > 1e-9 else math.inf for k in (0, 1))  # from middle to edge
-            middle = spot + way * (disc + out + reach)
-            low, high = middle - half, middle + half
-            if (low < frame[:2]).any() or (high > frame[2:]).any():
-                continue
-            if ((low < taken[:, 2:]) & (high > taken[:, :2])).all(axis=1).any():
-                continue
-            under = ((drawn > low) & (drawn < high)).all(axis=1).sum()
-            cost = out + reach / 4 + LINE_COST * min(under, 30) + BEND_COST * (1 - float(way @ wish))
-            if cost < least:
-                best, least = middle, cost
-    return best
+    turn = np.arange(TURNS) * (2 * math.pi / TURNS)
+    way = np.tile(np.column_stack([np.cos(turn), np.sin(turn)]), (len(DISTANCES), 1))
+    reach = (half / np.maximum(np.abs(way), 1e-9)).min(axis=1)  # from middle to edge
+    away = np.repeat(DISTANCES, TURNS) + reach
+    middle = spot + way * (disc + away)[:, None]
+    low, high = middle - half, middle + half
+    free = ((low >= frame[:2]) & (high <= frame[2:])).all(axis=1)
+    free &= ~((low[:, None] < taken[:, 2:]) & (high[:, None] > taken[:, :2])).all(axis=2).any(axis=1)
+    under = [((drawn > low[k]) & (drawn < high[k])).all(axis=1).sum() if free[k] else 0 for k in range(len(free))]
+    cost = away - reach * 0.75 + LINE_COST * np.minimum(under, 30) + BEND_COST * (1 - way @ wish)
+    best = int(np.argmin(np.where(free, cost, math.inf)))
+    return middle[best] if free[best] else None
 
 
 def _lead(ax: Axes, spot: Array, disc: float, middle: Array, half: Array, pixels: float, colour: str) -> Array:
