@@ -70,12 +70,13 @@ def panels(
             titles[k] = shorter if " ".join(shorter) == names[k] else [*lines, ""]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
-    loose = LOW if len(names) % columns else BETWEEN  # between rows: numbers and their name below the last of a column
-    height = top + sum(over) + rows * tall + (rows - 1) * loose + below
+    apart = [BETWEEN] * (rows - 1)  # between rows; above one that is not full, numbers and their name below the last of a column
+    apart[-1:] = [LOW if len(names) % columns else BETWEEN] * bool(apart)
+    height = top + sum(over) + rows * tall + sum(apart) + below
     picture = Picture((width, height), alt)
     for k, lines in enumerate(titles):
         row, column = divmod(k, columns)
-        x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - row * loose
+        x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - sum(apart[:row])
         ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
         ax.set_title("\n".join(lines), fontsize=letters, loc="left", pad=4, parse_math=False)
         calm(ax)
