@@ -101,7 +101,7 @@ def draw(ax: Axes, trial: Trial) -> None:
     wide = ax.get_position().width * figure_of(ax).get_figwidth()
     lines = LineCollection(list(strokes), cmap=MAP, norm=NORM, linewidth=min(1.5, 0.65 * wide), capstyle="butt", zorder=2.4)
     lines.set_array(np.degrees(found.angle))
-    ax.add_collection(lines)
+    ax.add_collection(lines, autolim=False)
     look = ENTRY.style()
     ax.add_line(Line2D(*trial.entries.T, **look | {"markersize": min(5.0, 2.2 * wide)}))
 

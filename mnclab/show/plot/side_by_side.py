@@ -127,7 +127,7 @@ REST, CORNER = looks.WRONG, looks.GREY
 def area(ax: Axes, region: Region, **look: Any) -> None:
     """A region with its holes as one patch."""
     if region.loops:
-        ax.add_patch(PathPatch(outline_of(region.loops), **look))
+        ax.add_artist(PathPatch(outline_of(region.loops), **look))  # limits are set: to look for them takes longest
 
 
 def hatch(ax: Axes, rest: Region, beyond: Region) -> None:
