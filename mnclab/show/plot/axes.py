@@ -21,9 +21,7 @@ STEPS = 3  # of an axis that turns, at most
 
 
 @sized()
-def plot_axes(
-    axes: Any, profile: Profile | None = None, *, width: float = WIDTH, height: float | None = None
-) -> Picture:  # fmt: skip
+def plot_axes(axes: Any, profile: Profile | None = None, *, width: float = WIDTH, height: float | None = None) -> Picture:
     """A curve for each axis that moves: X Y Z of the spindle reference, mm, and A B C, degrees, in machine coordinates.
 
     Over the rows of the path, or over the time of a `profile` of it, s, within a row evenly; `width`, `height` in inches.
@@ -44,8 +42,7 @@ def plot_axes(
     title = broken("machine coordinates, X Y Z of the spindle reference", width - LEFT - 0.1, SMALL + 1)
     rows = stacked(picture, [1.0] * max(len(moving), 1), 0.15 + LINE * len(title), left=LEFT, ticks=3)
     for row, k in zip(rows, moving):
-        name = "XYZABC"[k]
-        look = colours.AXES[k % 3]
+        name, look = "XYZABC"[k], colours.AXES[k % 3]
         row.plot(at, course[:, k], color=look.colour, linewidth=look.width)
         row.set_ylabel(f"{name}, {UNITS[name]}", fontsize=SMALL + 1)
         low, high = course[:, k].min(), course[:, k].max()

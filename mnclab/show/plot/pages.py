@@ -190,10 +190,8 @@ class _Setter:
     def least(self, pieces: Sequence[Piece]) -> float:
         """How much of the pieces is to stand below their heading: of a short table all, with the words that explain it."""
         first, *others = pieces or [Words("")]
-        if isinstance(first, Compared):  # with its table it becomes no smaller
-            return TALL
-        if isinstance(first, Blanks):
-            return 2 * BODY * len(first.rows) + AFTER
+        if isinstance(first, Compared | Blanks):  # a picture with its table becomes no smaller
+            return 2 * BODY * len(first.rows) + AFTER if isinstance(first, Blanks) else TALL
         if isinstance(first, Image):  # on a page that is less than half full it is drawn smaller
             return min(float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION, LESS * TALL)
         under = list(takewhile(lambda piece: isinstance(piece, Words), others))

@@ -44,9 +44,7 @@ SCALE, LEVEL = 0.62, 1.1  # of the colours and their numbers; of one engagement
 
 
 @sized()
-def plot_strategies(
-    found: Comparison | Trial, kind: str = "paths", width: float = 9.0, columns: int | None = None
-) -> Picture:
+def plot_strategies(found: Comparison | Trial, kind: str = "paths", width: float = 9.0, columns: int | None = None) -> Picture:
     """Each trial under its name, all at one scale; `width` of the picture in inches, `columns` how many stand in a row.
 
     `kind` is what is drawn: "paths", coloured by engagement, with what they leave; "engagement" over the length of the way,

@@ -70,8 +70,8 @@ def panels(
             titles[k] = shorter if " ".join(shorter) == names[k] else [*lines, ""]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
-    apart = [BETWEEN] * (rows - 1)  # between rows; above one that is not full, numbers and their name below the last of a column
-    apart[-1:] = [LOW if len(names) % columns else BETWEEN] * bool(apart)
+    loose = LOW if len(names) % columns else BETWEEN  # above a row that is not full: numbers below the last of a column
+    apart = [BETWEEN] * (rows - 2) + [loose] * (rows > 1)
     height = top + sum(over) + rows * tall + sum(apart) + below
     picture = Picture((width, height), alt)
     for k, lines in enumerate(titles):
