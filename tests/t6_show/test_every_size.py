@@ -17,7 +17,7 @@ from mnclab import area, schemes, strategies
 
 DATA = Path(__file__).parents[2] / "data"
 STEPPED = [(0, 12), (-15, 12), (-20, 20), (-30, 20), (-33, 16), (-40, 16), (-42, 24), (-50, 24)]
-SIZES = ("a4", "column", "slide")
+SIZES = {"a4": 7, "column": 6, "slide": 10}  # points of the smallest letters
 PLATE = "G90 G54 T1 S1000 M3\nG0 X0 Y0 Z5\nG1 Z-2 F100\nX60\nG41 Y30\nX0\nY0\nG0 Z5\n"
 
 
@@ -54,6 +54,28 @@ def cleared(*names):
 
 
 @functools.cache
+def crashed():
+    """At rapid through a plate."""
+    text = "G90 G54 T1 S800 M3\nG0 X-20 Y20 Z5\nZ-3\nX30\nG1 X60 F100\nG0 Z5\n"
+    setup = mnc.Setup(stock=((0, 0, -10), (80, 40, 0)), tools={1: mnc.Tool(radius=4, length=30)})
+    return mnc.run(text, "mnc", setup)
+
+
+@functools.cache
+def tilted():
+    """A slope that two rotary axes of the table turn upwards."""
+    blocks = "TOOL CALL 1 Z S2000|L X0 Y0 Z50 R0 FMAX M3|PLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN MB MAX FMAX|L X10 Y0 Z5 FMAX"
+    text = "|".join(("BEGIN PGM A MM", blocks, "L Z-2 F200|L X40 Y20 F500|PLANE RESET TURN MB MAX FMAX|END PGM A MM"))
+    setup = mnc.Setup(kinematics="table-ac", tools={1: mnc.Tool(radius=5, length=80)})
+    return mnc.run(text.replace("|", "\n"), "tnc-620", setup)
+
+
+@functools.cache
+def every_strategy():
+    return mnc.compare(pocket(), 4.0)
+
+
+@functools.cache
 def turned():
     shoulder = area.Contour([(0, 20), (-40, 20), (-50, 30)], closed=False)
     return mnc.compare_turning(shoulder, 30, mnc.Tool(number=1, kind="turning", main_angle=95, auxiliary_angle=30), depth=4)
@@ -82,9 +104,16 @@ def difference():
     return done.workpiece().compare(wanted)
 
 
-def diff(what="path"):
+def shifted():
+    """Holes, and the same with one row of them elsewhere."""
     one = run("tnc-620/holes.h")
-    return mnc.diff(one, mnc.run(one.program.text.replace("Y+15", "Y+15.2"), "tnc-620", one.setup), what=what)
+    return one, mnc.run(one.program.text.replace("Y+15", "Y+15.2"), "tnc-620", one.setup)
+
+
+def straight():
+    """Two ways at rapid from corner to corner: at once, and one axis after the other."""
+    text = "G90 G54 T1 S800 M3\nG0 X0 Y0 Z5\nG0 X60 Y20\nG1 Z-2 F100\nX0\nG0 Z5\n"
+    return mnc.run(text, "mnc"), mnc.run(text.replace("X60 Y20", "X60\nY20"), "mnc")
 
 
 FIGURES = {
@@ -117,10 +146,18 @@ FIGURES = {
     "difference": lambda **size: difference().plot(**size),
     "difference in section": lambda **size: difference().plot(section="XZ", at=25, **size),
     "runs": lambda **size: mnc.plot_runs({name: run(f"mnc/plate_{name}.mnc") for name in ("absolute", "incremental")}, **size),
-    "deviation": lambda **size: diff().plot(**size),
-    "holes": lambda **size: diff("holes").plot(**size),
+    "deviation": lambda **size: mnc.diff(*shifted()).plot(**size),
+    "deviation at rapid": lambda **size: mnc.diff(*straight()).plot(**size),
+    "holes": lambda **size: mnc.diff(*shifted(), what="holes").plot(**size),
+    "proof": lambda **size: mnc.prove(*shifted()).plot(**size),
+    "proof at rapid": lambda **size: mnc.prove(*straight()).plot(**size),
+    "axes": lambda **size: tilted().axes().plot(**size),
+    "axes over time": lambda **size: tilted().axes().plot(tilted().profile("small-mill"), **size),
+    "tilted path": lambda **size: tilted().plot(**size),
+    "collisions": lambda **size: crashed().collisions().plot(**size),
     "regions": lambda **size: area.plot({"pocket": pocket(), "what an 8 mm mill leaves": strategies.rest(pocket(), 4)}, **size),
     "strategies": lambda **size: cleared("rings", "spiral", "zigzag", "adaptive").plot(**size),
+    "every strategy": lambda **size: every_strategy().plot(**size),
     "two strategies": lambda **size: cleared("rings", "trochoidal").plot(**size),
     "engagement": lambda **size: cleared("rings", "spiral", "zigzag").plot("engagement", **size),
     "passes": lambda **size: cleared("rings")["rings"].plot("passes", **size),
@@ -167,9 +204,10 @@ def faults(figure):
 
 
 @pytest.mark.parametrize(("name", "size"), deep_but_one_in(10, itertools.product(FIGURES, SIZES)))
-def test_all_texts_stand_inside_and_apart(name, size):
-    wrong = faults(FIGURES[name](size=size))
+def test_all_texts_stand_inside_and_apart_and_are_readable(name, size):
+    wrong = faults(figure := FIGURES[name](size=size))
     assert not wrong, "\n".join(wrong)
+    assert min(text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()) >= SIZES[size]
 
 
 @pytest.mark.parametrize("name", deep_but_one_in(6, FIGURES))
@@ -204,16 +242,19 @@ def test_four_schemes_of_a_groove_fill_a_slide():
     assert max(box.y1 for box in boxes) - min(box.y0 for box in boxes) > 0.6
 
 
-@pytest.fixture(scope="module")
-def every_strategy():
-    return mnc.compare(pocket(), 4.0)
+def test_only_above_a_row_that_is_not_full_views_stand_apart():
+    """Seven schemes in two columns: between the rows that are full there is no room for numbers."""
+    figure = FIGURES["turning schemes"](size="column")
+    left = [ax.get_position() for ax in figure.axes[::2]]
+    gaps = [(above.y0 - below.y1) * figure.get_figheight() * 25.4 for above, below in itertools.pairwise(left)]
+    assert max(gaps[0], gaps[1] - 4) < 11 and gaps[2] > gaps[0] + 4  # mm; the third row has names of two lines
 
 
 @pytest.mark.parametrize("kind", ["paths", "engagement", "passes"])
-def test_every_strategy_fills_a_slide_and_stays_on_a_page(every_strategy, kind):
+def test_every_strategy_fills_a_slide_and_stays_on_a_page(kind):
     names = {word for name in strategies.STRATEGIES for word in name.split()}
     for size in SIZES:
-        figure = every_strategy.plot(kind, size=size)
+        figure = every_strategy().plot(kind, size=size)
         boxes = [ax.get_position() for ax in figure.axes]
         assert max(box.x1 for box in boxes) - min(box.x0 for box in boxes) > 0.75
         assert figure.get_figheight() * 25.4 <= 257.1 and not faults(figure)

@@ -83,3 +83,11 @@ def test_a_machine_is_meant_by_its_name_wherever_limits_are(run, tmp_path):
 
 def test_a_letter_that_no_font_has_is_no_error(run, tmp_path):
     assert run.setup_sheet(tmp_path / "a.pdf", title="a\0b\x07\udc80").read_bytes()[:4] == b"%PDF"
+
+
+def test_options_of_a_drawing_are_those_of_its_plot():
+    """Its sizes are those of paper: a column of a page is none of them."""
+    drawn = mnc.Design(((0, 0, -10), (40, 30, 0))).plot()
+    with pytest.raises(mnc.Alarm, match="no option size") as refused:
+        drawn.save("a.pdf", size="column")
+    assert ".plot that draws it" in refused.value.hint and "column" not in refused.value.hint

@@ -348,3 +348,15 @@ def test_names_stand_off_lines_and_are_led_to_the_tool_centre_at_their_corners(s
                 pieces = [piece[~np.isnan(piece[:, 0])] for piece in np.split(xy, np.flatnonzero(np.isnan(xy[:, 0])))]
                 paths = [shape.Path(ax.transData.transform(piece)) for piece in pieces if len(piece) > 1]
                 assert not any(path.intersects_bbox(box, filled=False) for path in paths), text.get_text()
+
+
+def test_three_rules_in_a_column_stand_below_one_another():
+    """In a row a picture was 20 mm wide: names stood 15 mm off their corners, and the legend had no room for entry and exit."""
+    picture = with_radius(PLATE).plot_compensation(rules=("G160", "G161", "G162"), size="column")
+    picture.draw_without_rendering()
+    named = {text.get_text() for legend in picture.legends for text in legend.get_texts()}
+    assert {"entry", "exit", "rapid"} <= named and len({ax.get_position().x0 for ax in picture.axes}) == 1
+    for ax in picture.axes:
+        for text in ax.texts:
+            box, corner = text.get_window_extent(), ax.transData.transform(text.xy)
+            assert np.hypot(*(corner - np.clip(corner, box.min, box.max))) / picture.dpi * 25.4 < 6

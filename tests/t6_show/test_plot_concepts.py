@@ -316,6 +316,17 @@ def test_tiny_and_huge_arcs_have_their_centre(scale):
     assert f"I{scale:g}" in said(picture)
 
 
+@pytest.mark.parametrize(("count", "names"), [(5, {f"hole ⌀{d}" for d in range(6, 11)}), (6, {"hole ⌀6 to ⌀11"})])
+def test_a_legend_names_up_to_five_diameters_of_holes_each_and_more_from_the_least_to_the_greatest(count, names):
+    """Drills of 6, 7, 8 ... mm."""
+    tools = {k: mnc.Tool(diameter=5 + k, kind="drill") for k in range(1, count + 1)}
+    blocks = [f"T{k} S800 M3\nG0 X{20 * k} Y10 Z5\nG99 G83 X{20 * k} Y10 Z-9 R2 K9 F100\nG80\nG0 Z5\n" for k in tools]
+    stock = ((0, 0, -10), (150, 20, 0))
+    (legend,) = mnc.run("".join(blocks), "mnc", mnc.Setup(tools=tools, stock=stock)).plot(view="XY").legends
+    found = {t.get_text(): h.get_color() for t, h in zip(legend.get_texts(), legend.legend_handles) if "hole" in t.get_text()}
+    assert found.keys() == names and len({*found.values()}) == len(names)
+
+
 def test_diameters_of_holes_are_told_apart_by_colour_and_size():
     text = "T1 S1000 M3\nG0 X0 Y0 Z5\nG99 G83 X10 Y10 Z-20 R2 K20 F100\nG80\n"
     text += "T2 S800\nG99 G83 X40 Y10 Z-20 R2 K20 F100\nG80\nG0 Z5\n"

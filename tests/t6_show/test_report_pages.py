@@ -8,10 +8,11 @@ import pytest
 from tools.together import deep_but_one_in
 
 import mnclab as mnc
-from mnclab.show.plot.page_sheet import BOTTOM, TOP
+from mnclab.show.plot.page_sheet import A4, BOTTOM, LEFT, TOP, WIDE
 from mnclab.show.plot.pages import HEADING, _parts, sheets
 from mnclab.show.plot.set_up import plot_set_up
 from mnclab.show.report import gathering
+from mnclab.show.report.document import BAD, Blanks, Compared, Document, Listing, Section, Words
 
 DATA = Path(__file__).parents[2] / "data" / "programs"
 SHEET = "T1 M6\nG90 G55\nS2000 M3\nG43 H11 D3 G0 X-10 Y10 Z5\nG1 Z-2 F100\nX90 F300\n"
@@ -97,3 +98,29 @@ def test_no_row_of_a_table_stands_alone_on_a_page(above):
     pages = sheets(gathering.Document("a", "b", [gathering.Section("", [*[gathering.Words("x")] * above, table])]))
     counts = [sum(text.text.startswith("row ") for text in page.texts_on_it) for page in pages]
     assert sum(counts) == 5 and 1 not in counts
+
+
+def test_bold_words_are_folded_where_the_page_ends():
+    """As of a collision: bold letters are wider than plain ones."""
+    said = Section("Collisions", [Words("rapid motion in material, 3.000 mm deep at X0.468 Y20.000 " * 3, BAD)])
+    (page,) = sheets(Document("crash", "mill", [said]))
+    assert len([text for text in page.texts_on_it if text.bold]) > 3
+    assert all(text.x + text.wide <= LEFT + WIDE for text in page.texts_on_it)
+
+
+def test_what_a_person_fills_in_stands_on_one_page_below_its_heading():
+    fill = Blanks([(name, "") for name in ("program", "part", "date", "measured by")])
+    for lines in range(40, 64):
+        listings = [Section("Program", [Listing([(1, "G1", "")] * count)]) for count in (lines, 60)]
+        pages = sheets(Document("plate", "mill", [listings[0], Section("Measured by the probe", [fill]), listings[1]]))
+        assert "Measured by the probe, continued" not in [text.text for page in pages for text in page.texts_on_it]
+
+
+def test_a_measuring_record_does_not_leave_its_heading_behind():
+    """Its picture with the table of all measures needs a page: the heading goes there, too."""
+    plate = mnc.Design(((0, 0, -20), (110, 70, 0)), [mnc.design.Pocket.circle(40, 35, 44, 5)])
+    difference = plate.workpiece().compare(plate)
+    for lines in (10, 40):
+        listing = Section("Program", [Listing([(1, "G1", "")] * lines)])
+        for page in sheets(Document("plate", "mill", [listing, Section("Measuring record", [Compared(difference)])])):
+            assert page.size == A4 and "Measuring record, continued" not in [text.text for text in page.texts_on_it]

@@ -157,8 +157,10 @@ class Side:
             self._rectangle(first.contour, known, numbers)
             self._fall(first, known, numbers)
         elif shape is not None:
-            # at a leader a depth counts from the upper side; where it begins deeper only a section says from where
-            deep = isinstance(shape, Circle) and not isinstance(first, Stud) and first.top is None
+            # at a leader a depth counts from the upper side; where it begins deeper only a section says from where, and that of a
+            # floor where others begin stands there in any case
+            plain = isinstance(shape, Circle) and not isinstance(first, Stud) and first.top is None
+            deep = plain and all(abs(self.top(first) - known["depth"].nominal - self.top(each)) > SAME for each in self.features)
             self._shape(shape, first.measures(), numbers, (written(known["depth"]),) if deep else ())
             if not deep:
                 self._deep(numbers, shape.contour)

@@ -152,9 +152,7 @@ def over(found: Measured | None, text: str, path: Toolpath, shown: Sequence[Wind
     return sheet.svg(text, size)
 
 
-def length(
-    sheet: Sheet, found: Length, text: str, path: Toolpath, shown: Sequence[Window], size: tuple[float, float]
-) -> None:
+def length(sheet: Sheet, found: Length, text: str, path: Toolpath, shown: Sequence[Window], size: tuple[float, float]) -> None:
     """A dimension line beside the path, with lines from its feet."""
     window = seen_in(found.way, shown)
     feet = window.at(np.stack([found.begin, found.end]))

@@ -202,9 +202,7 @@ def _said(text: str, line: NDArray[np.integer[Any]]) -> Array:
     return found[line]
 
 
-def _geometry(
-    pack: Packer, path: Toolpath, scale: float, angles: float, told: NDArray[np.int64] | None = None
-) -> dict[str, Any]:
+def _geometry(pack: Packer, path: Toolpath, scale: float, angles: float, told: NDArray[np.int64] | None = None) -> dict[str, Any]:
     """Kinds and vertices of a path (n + 1), and centre and sweep of its arcs."""
     arc = path.kind == Kind.ARC
     vertices = parted(_vertices(path), scale)

@@ -8,7 +8,7 @@ import numpy as np
 
 from mnclab.path.profile import Profile
 from mnclab.show.plot import colours
-from mnclab.show.plot.picture import SMALL, Picture, stacked
+from mnclab.show.plot.picture import LINE, SMALL, Picture, broken, stacked
 from mnclab.show.plot.sizes import sized
 from mnclab.show.plot.unrolled import angle_steps
 from mnclab.text.alarm import Alarm
@@ -16,15 +16,15 @@ from mnclab.text.given import shown
 
 UNITS = {"X": "mm", "Y": "mm", "Z": "mm", "A": "°", "B": "°", "C": "°"}
 DECIMALS = 6  # what is below is noise of numbers
-WIDTH, HIGH = 7.0, 0.85  # inches: of the figure, and of one axis
+WIDTH, HIGH, LEFT = 7.0, 0.85, 0.8  # inches: of the figure, of one axis, and of its names
 STEPS = 3  # of an axis that turns, at most
 
 
 @sized()
-def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
+def plot_axes(axes: Any, profile: Profile | None = None, *, width: float = WIDTH, height: float | None = None) -> Picture:
     """A curve for each axis that moves: X Y Z of the spindle reference, mm, and A B C, degrees, in machine coordinates.
 
-    Over the rows of the path, or over the time of a `profile` of it, s, within a row evenly.
+    Over the rows of the path, or over the time of a `profile` of it, s, within a row evenly; `width`, `height` in inches.
     """
     course, at = axes.course()
     course = course.round(DECIMALS)
@@ -38,10 +38,11 @@ def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
         at, course = np.append(0.0, at), np.concatenate([course[:1], course])
     moving = [k for k in range(6) if len(course) and np.ptp(course[:, k]) > 0]
     ends = ", ".join(f"{name} from {low:g} to {high:g}" for name, low, high in _spans(course, moving))
-    picture = Picture((WIDTH, HIGH * max(len(moving), 1) + 0.8), f"axes over {over}: {ends or 'none moves'}")
-    for row, k in zip(stacked(picture, [1.0] * max(len(moving), 1), 0.3, left=0.8, ticks=3), moving):
-        name = "XYZABC"[k]
-        look = colours.AXES[k % 3]
+    picture = Picture((width, height or HIGH * max(len(moving), 1) + 0.8), f"axes over {over}: {ends or 'none moves'}")
+    title = broken("machine coordinates, X Y Z of the spindle reference", width - LEFT - 0.1, SMALL + 1)
+    rows = stacked(picture, [1.0] * max(len(moving), 1), 0.15 + LINE * len(title), left=LEFT, ticks=3)
+    for row, k in zip(rows, moving):
+        name, look = "XYZABC"[k], colours.AXES[k % 3]
         row.plot(at, course[:, k], color=look.colour, linewidth=look.width)
         row.set_ylabel(f"{name}, {UNITS[name]}", fontsize=SMALL + 1)
         low, high = course[:, k].min(), course[:, k].max()
@@ -49,8 +50,8 @@ def plot_axes(axes: Any, profile: Profile | None = None) -> Picture:
         row.margins(x=0)
         if k > 2:
             row.yaxis.set_major_locator(angle_steps(high - low, STEPS))
-    picture.axes[0].set_title("machine coordinates, X Y Z of the spindle reference", fontsize=SMALL + 1, loc="left", pad=4)
-    last = picture.axes[-1]
+    rows[0].set_title("\n".join(title), fontsize=SMALL + 1, loc="left", pad=4)
+    last = rows[-1]
     last.set_xlabel(over, fontsize=SMALL + 1)
     if not moving:
         last.text(0.5, 0.5, "no axis moves", transform=last.transAxes, ha="center", va="center", fontsize=SMALL + 1)

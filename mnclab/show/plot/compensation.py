@@ -63,6 +63,7 @@ GOUGES = {
 }
 WIDE = (12.0, 7.0)  # several pictures side by side
 NAMES = 0.06  # of the greatest side: room for names above and below
+LEAST = 1.6  # inches of a side of one picture
 LARGER = 3.0  # a blank of so many times the size of the picture is left out
 
 
@@ -213,9 +214,9 @@ def _picture(
         return min(free[0] / count / wide, free[1] / lines / tall)
 
     full = [n for n in range(1, len(panels) + 1) if len(panels) % n == 0 or len(panels) > 4]
-    count = max(full, key=lambda n: (best(n) * (1.5 if n == len(panels) < 4 else 1.0), n))
+    count = max(full, key=lambda n: (best(n) * (1.5 if n == len(panels) < 4 and best(n) * wide > LEAST else 1.0), n))
     scale = best(count)
-    across, height = max(scale * wide, 1.6), max(scale * tall, 1.6)
+    across, height = max(scale * wide, LEAST), max(scale * tall, LEAST)
     width = min(size[0], max(4.6, left + RIGHT + count * across + (count - 1) * BETWEEN))
     across = (width - left - RIGHT - BETWEEN * (count - 1)) / count
     titles, ratio = [panel.title for panel in panels], height / across

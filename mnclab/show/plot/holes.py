@@ -52,8 +52,8 @@ class Diameter(NamedTuple):
     sample: float
 
 
-#: How up to three diameters are told apart, in grey print by the size of their samples.
-LOOK = ((colours.HOLE.colour, 5.0), ("#ad1457", 7.0), ("#00838f", 9.0))
+#: How up to five diameters are told apart, in grey print by the size of their samples.
+LOOK = ((colours.HOLE.colour, 5.0), ("#ad1457", 6.0), ("#00838f", 7.0), ("#6d7b00", 8.0), ("#5b4bb5", 9.0))
 
 
 class Holes(NamedTuple):
@@ -71,11 +71,12 @@ class Holes(NamedTuple):
 
     @property
     def _kinds(self) -> list[Diameter]:
-        """The holes by diameter, small ones first; all of them together where those are many."""
+        """The holes by diameter, small ones first; all of them together, from the least to the greatest, where those are many."""
         kinds: dict[str, list[Hole]] = {}
         for hole in sorted(self.holes, key=lambda each: each.radius):
             kinds.setdefault(f"hole \N{DIAMETER SIGN}{self.unit.figure(2 * hole.radius, 1)}", []).append(hole)
-        kinds = kinds if len(kinds) <= len(LOOK) else {"hole": self.holes}
+        if len(names := [*kinds]) > len(LOOK):
+            kinds = {f"{names[0]} to {names[-1].removeprefix('hole ')}": self.holes}
         return [Diameter(name, holes, *look) for (name, holes), look in zip(kinds.items(), LOOK)]
 
     def hides(self, view: View, places: Array) -> Mask:

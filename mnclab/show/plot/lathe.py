@@ -192,9 +192,7 @@ HOLDER: dict[str, Any] = {"facecolor": to_rgba(looks.STEEL, CLEAR), "edgecolor":
 FINE = 0.01  # of the size of an insert: how far a chord of its nose may be off
 
 
-def insert_patches(
-    tool: Tool, tip: tuple[float, float], size: float, reach: float = 0.0, order: float = 4.4
-) -> list[Patch]:
+def insert_patches(tool: Tool, tip: tuple[float, float], size: float, reach: float = 0.0, order: float = 4.4) -> list[Patch]:
     """Holder and insert with the tip at a place (z, r); `order` of drawing: strokes have 2.5 to 3."""
     outline = insert(tool, size, reach).points_within(FINE * size)[:-1]
     return [

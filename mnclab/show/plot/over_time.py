@@ -33,9 +33,7 @@ RAPID = "#e9c9c5"
 
 @sized()
 @fitting
-def plot_profiles(
-    profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", width: float = WIDTH
-) -> Picture:
+def plot_profiles(profile: Any, *others: Any, names: Sequence[str] = (), over: str = "time", width: float = WIDTH) -> Picture:
     """The feed of several profiles, or runs, under one another: `plot_profiles(run.profile("small-mill"), run)`.
 
     They may be a list or a dict, too. All begin at 0 and have the same scales; bands stand for rapids. `names` are what they are

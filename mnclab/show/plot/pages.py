@@ -190,12 +190,14 @@ class _Setter:
     def least(self, pieces: Sequence[Piece]) -> float:
         """How much of the pieces is to stand below their heading: of a short table all, with the words that explain it."""
         first, *others = pieces or [Words("")]
+        if isinstance(first, Compared | Blanks):  # a picture with its table becomes no smaller
+            return 2 * BODY * len(first.rows) + AFTER if isinstance(first, Blanks) else TALL
         if isinstance(first, Image):  # on a page that is less than half full it is drawn smaller
             return min(float(first.picture.get_figheight()) * POINTS + 2.2 * CAPTION, LESS * TALL)
         under = list(takewhile(lambda piece: isinstance(piece, Words), others))
         if isinstance(first, TextTable) and under and len(first.rows) <= SHORT:
             made = tabled(first, WIDE)
-            lines = sum(len(folded(printable(each.text), WIDE, BODY)) for each in under if isinstance(each, Words))
+            lines = sum(len(_folded(each)) for each in under if isinstance(each, Words))
             tall = sum(row.tall for row in (*made.rows, *([made.head] if made.head else [])))
             return tall + 2 * AIR + AFTER * (1 + len(under)) + lines * BODY * LINE
         return 5 * BODY * LINE
@@ -206,7 +208,7 @@ class _Setter:
 
     @put.register
     def _(self, piece: Words) -> None:
-        for text in folded(printable(piece.text), WIDE, BODY):
+        for text in _folded(piece):
             self.room(BODY * LINE)
             self.line(text, BODY, colour=TONES[piece.tone], bold=bool(piece.tone))
 
@@ -280,7 +282,8 @@ class _Setter:
 
     @put.register
     def _(self, piece: Compared) -> None:
-        self.put(Image(piece.difference.plot(table=True), "where the part is off, in colours, and its measures"))
+        picture = piece.difference.plot(table=True, size=(WIDE / POINTS, 6.0))  # as wide as the page, else it gets one of its own
+        self.put(Image(picture, "where the part is off, in colours, and its measures"))
 
     @put.register
     def _(self, piece: Alarms) -> None:
@@ -321,6 +324,11 @@ class _Setter:
         if room < len(piece.lines):
             left_out = f"… {len(piece.lines) - room} of {len(piece.lines)} lines are left out; an .html report has them all"
             self.put(Words(left_out))
+
+
+def _folded(words: Words) -> list[str]:
+    """The lines of a paragraph; with a tone its letters are bold, and wider."""
+    return folded(printable(words.text), WIDE, BODY, bool(words.tone))
 
 
 def _parts(text: str, letters: int) -> Iterator[str]:

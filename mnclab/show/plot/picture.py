@@ -136,7 +136,7 @@ class Picture(Figure):
         if not isinstance(path, str | Path) or Path(path).suffix.lower() not in SUFFIXES:
             raise Alarm(f"a picture is saved as {', '.join(SUFFIXES)}, got {shown(path)}", hint='.save("figure.pdf")')
         if options and self.again is None:
-            raise Alarm(f"this figure has no option {next(iter(options))}", hint='.plot(size="column") draws in another size')
+            raise Alarm(f"this figure has no option {next(iter(options))}", hint="options go to the .plot that draws it")
         with replaced(Path(path)) as beside:
             write(self.again(**options) if options and self.again else self, beside)
         return Path(path)

@@ -44,9 +44,7 @@ SCALE, LEVEL = 0.62, 1.1  # of the colours and their numbers; of one engagement
 
 
 @sized()
-def plot_strategies(
-    found: Comparison | Trial, kind: str = "paths", width: float = 9.0, columns: int | None = None
-) -> Picture:
+def plot_strategies(found: Comparison | Trial, kind: str = "paths", width: float = 9.0, columns: int | None = None) -> Picture:
     """Each trial under its name, all at one scale; `width` of the picture in inches, `columns` how many stand in a row.
 
     `kind` is what is drawn: "paths", coloured by engagement, with what they leave; "engagement" over the length of the way,
@@ -101,7 +99,7 @@ def draw(ax: Axes, trial: Trial) -> None:
     wide = ax.get_position().width * figure_of(ax).get_figwidth()
     lines = LineCollection(list(strokes), cmap=MAP, norm=NORM, linewidth=min(1.5, 0.65 * wide), capstyle="butt", zorder=2.4)
     lines.set_array(np.degrees(found.angle))
-    ax.add_collection(lines)
+    ax.add_collection(lines, autolim=False)
     look = ENTRY.style()
     ax.add_line(Line2D(*trial.entries.T, **look | {"markersize": min(5.0, 2.2 * wide)}))
 

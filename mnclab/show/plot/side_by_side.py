@@ -70,12 +70,13 @@ def panels(
             titles[k] = shorter if " ".join(shorter) == names[k] else [*lines, ""]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
-    loose = LOW if len(names) % columns else BETWEEN  # between rows: numbers and their name below the last of a column
-    height = top + sum(over) + rows * tall + (rows - 1) * loose + below
+    loose = LOW if len(names) % columns else BETWEEN  # above a row that is not full: numbers below the last of a column
+    apart = [BETWEEN] * (rows - 2) + [loose] * (rows > 1)
+    height = top + sum(over) + rows * tall + sum(apart) + below
     picture = Picture((width, height), alt)
     for k, lines in enumerate(titles):
         row, column = divmod(k, columns)
-        x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - row * loose
+        x, y = left + column * (wide + BETWEEN), height - top - sum(over[: row + 1]) - (row + 1) * tall - sum(apart[:row])
         ax = picture.add_axes((x / width, y / height, wide / width, tall / height))
         ax.set_title("\n".join(lines), fontsize=letters, loc="left", pad=4, parse_math=False)
         calm(ax)
@@ -126,7 +127,7 @@ REST, CORNER = looks.WRONG, looks.GREY
 def area(ax: Axes, region: Region, **look: Any) -> None:
     """A region with its holes as one patch."""
     if region.loops:
-        ax.add_patch(PathPatch(outline_of(region.loops), **look))
+        ax.add_artist(PathPatch(outline_of(region.loops), **look))  # limits are set: to look for them takes longest
 
 
 def hatch(ax: Axes, rest: Region, beyond: Region) -> None:
