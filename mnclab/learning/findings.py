@@ -60,30 +60,30 @@ def hints_of(
 
 
 def of_alarms(run: Run) -> Iterator[Finding]:
-    """The alarms of a run."""
+    """The alarms of a run, the first with the place where it stopped."""
+    place = next((_spot(run.toolpath.end, row) for row in np.flatnonzero(run.toolpath.is_motion)[:-2:-1]), None)
     for alarm in run.alarms:
         if alarm.severity == "alarm":
             said = f"the control stops: {alarm.message}{f' ({alarm.hint})' * bool(alarm.hint)}"
             line = alarm.span.line if alarm.span else 0
             causes = tuple(of_alarm(run, alarm.message, line))
-            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said,), causes=causes)
+            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said,), place, causes)
+            place = None
 
 
 #: What to look at, by the kind of a collision.
 LOOK = {
     "rapid": "Which move brings the tool here, and should it be at feed, or higher?",
     "plunge": "How can this tool get into the material: a ramp, a helix, a drilled hole?",
-    "solid": "Which tool must have been here before?",
-    "sideways": "Which tool may be fed sideways?",
+    "solid": "Which tool must have been here before?", "sideways": "Which tool may be fed sideways?",
     "shank": "How deep may this tool cut at once, and how far is its edge from the wall above?",
     "holder": "How far does the tool stand out of its holder here?",
     "fixture": "Where is the clamp, and how high must the tool pass over it?",
     "spindle": "Which block should start the spindle, and in which direction?",
-    "travel": "How far does this axis go?",
     "insert": "Which flank of the insert meets the part, or is the pass deeper than its edge is long?",
-    "chuck": "How far are the jaws from Z0?",
+    "travel": "How far does this axis go?", "chuck": "How far are the jaws from Z0?",
     "axis": "What turns about its own axis cuts at X0 alone.",
-}
+}  # fmt: skip
 
 
 OF_TOOL = ("sideways", "shank", "holder", "insert", "axis")  # kinds that another tool would not meet
@@ -331,7 +331,7 @@ def _why(row: Any, run: Run, before: int, line: int) -> str:
 def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
     """The passes of a turned part's threads that have another pitch than drawn, or miss the groove of the deepest one; its
     depth."""
-    path = run.toolpath
+    path, start = run.toolpath, run.toolpath.start
     for name, thread in zip(design.drawn_names(), design.features) if hasattr(design, "profile") else ():
         if thread.kind != "thread" or (found := passes_of(path, thread)) is None:
             continue  # said by its measures
@@ -340,18 +340,18 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
         for row, pitch in zip(found.rows, found.pitch):
             if abs(pitch - thread.pitch) > EXACT:
                 told = f"{name}: its pitch is not as drawn"
-                yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _start(path, row))
+                yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _spot(start, row))
         for row in found.rows[found.beside > 0]:
             told = f"{name}: a pass does not run in the groove of the others"
             moved = np.flatnonzero(path.start[:row, 2] != path.end[:row, 2])  # what brought it where it begins
             line = int(path.line[moved[-1] if len(moved) else row])
-            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _start(path, row), own)
+            yield Finding(PART, f"{name} begins", line, (told, f"{told}: where along Z does it begin?"), _spot(start, row), own)
         if abs(shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
             sized = f"{name}: its depth is {abs(shallow):.3f} mm too {'shallow' if shallow > 0 else 'deep'}"
-            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
+            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _spot(start, row), own)
 
 
-def _start(path: Any, row: int) -> Place:
-    x, y, z = path.start[row].tolist()
+def _spot(ends: Any, row: int) -> Place:
+    x, y, z = ends[row].tolist()
     return x, y, z

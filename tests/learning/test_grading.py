@@ -222,6 +222,14 @@ def test_speed_feed_and_pecks_can_be_asked_for(made, wanted, right):
     assert made(f"[asked]\ncutting = [{{tool = {wanted}}}]").check(RIGHT).passed is right
 
 
+@pytest.mark.parametrize(("most", "share"), [((999, 299, 3.9), 0), ((1000, 299, 3.9), 1 / 3), ((1000, 301, 3.9), 2 / 3)])
+def test_each_quantity_of_a_tool_counts_alike(made, most, share):
+    """S1000 F300, 4 mm deep: of speed, feed and depth none, one and two are right; none is worth less than nothing."""
+    n, vf, ap = most
+    grade = made(f"[asked]\ncutting = [{{tool = 1, n = [0, {n}], vf = [0, {vf}], ap = [0, {ap}]}}]").check(RIGHT)
+    assert grade.points["asked"] == pytest.approx(share)
+
+
 def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end():
     """From 20 to 17 mm along 24.8 mm; then from 17.2 mm, 0.2 along 25 mm of 27, and 3 mm of the shoulder along 0.2."""
     text = "T1\nG97 S500 G95 F0.2 M3\nG00 X17.2 Z2\nG01 Z-24.8\nX22\nG00 Z2\nX17\nG01 Z-25\nX22\n"
@@ -254,6 +262,12 @@ def test_a_thread_that_is_cut_too_deep_is_told_as_one():
 def test_compensation_in_the_air_is_none(made, code, change):
     grade = made(f"[asked]\nmust = ['{code}']").check(RIGHT.replace(*change))
     assert not grade.passed and grade.hints[0].text == f"the task asks for {code}, and it is not on where the tool cuts"
+
+
+def test_an_alarm_has_the_place_where_the_program_stopped(made):
+    """Line 6 is refused, line 5 went to X45 Y20 Z5; nothing moved before line 1."""
+    assert made().check(RIGHT.replace("G0 Z5\nT2", "G0 Z5\nG0 X1 Q4\nT2")).hints[0].place == (45, 20, 5)
+    assert made().check("G0 X5 Q3\n" + RIGHT).hints[0].place is None
 
 
 def test_names_are_no_codes():
