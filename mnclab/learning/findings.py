@@ -133,9 +133,8 @@ def at_the_end(run: Run) -> Iterator[Finding]:
     """Radius compensation that is left on."""
     steps = len(run.steps.block)
     if steps and run.history.value("side", steps - 1):
-        line = int(run.lines()[-1])
         told = "the program ends with radius compensation on"
-        yield Finding(DANGER, "compensation left on", line, (told, f"{told}: which word takes it back, and where?"))
+        yield Finding(DANGER, "compensation left on", int(run.lines()[-1]), (told, f"{told}: which word ends it, and where?"))
 
 
 def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> Iterator[Finding]:
@@ -209,7 +208,7 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         told = f"{feature}: it is not as deep as drawn"
         steps = (told, f"{told}: how far below its full diameter is the point?")
         return Finding(PART, f"{feature} depth", line, steps, there, causes)
-    its, unit = f"{feature}: its {row.measure} is", _unit(row.measure)
+    its, unit = f"{feature}: its {row.measure} is", "degrees" if "angle" in row.measure else "mm"
     which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
     told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
     if abs(row.deviation) > FAR:
@@ -283,10 +282,6 @@ def _way(row: Any) -> str:
     return "large" if more else "small"
 
 
-def _unit(measure: str) -> str:
-    return "degrees" if "angle" in measure else "mm"
-
-
 NEAR = 1.0  # mm, beyond the largest tool: a row that is farther away has nothing to do with a place
 
 
@@ -324,6 +319,9 @@ def _why(row: Any, run: Run, before: int, line: int) -> str:
         for times, said in ((1, "the radius"), (2, "the diameter"), (4, "twice the diameter")):
             if math.isclose(off, times * tool.radius, abs_tol=0.01):
                 return f"that is {said} of the tool: on which side of the contour does it run?"
+    if tool is not None and tool.kind == "drill" and tool.angle and row.measure == "depth":
+        if math.isclose(off, tool.radius / math.tan(math.radians(tool.angle) / 2), abs_tol=0.01):
+            return "that is the height of the point: how far down does the full diameter go?"
     block = run.program.text.splitlines()[line - 1] if line else ""
     return f"compare {'the cycle and the contour that it mills' if CALLS.search(block) else BLOCKS} with the drawing"
 

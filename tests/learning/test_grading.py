@@ -284,6 +284,13 @@ def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
     assert text.split("\n")[hint.line - 1].startswith("G73") and hint.text == "core hole: it is not as deep as drawn"
 
 
+def test_a_hole_that_is_too_shallow_by_the_point_of_the_drill_is_told_so(made):
+    text = RIGHT.replace(f"Z-{6 + HOLE_DEPTH:.4f}", "Z-6")
+    (hint, *_), line = made().check(text, tried={"hole depth": 9}).hints, text.split("\n").index("G1 Z-6 F80") + 1
+    assert hint.line == line and hint.text.endswith("too shallow; that is the height of the point: how far down does the full "
+                                                    "diameter go?")  # fmt: skip
+
+
 def test_where_an_arc_begins_and_what_only_a_rapid_passes_over_are_named(made):
     """An arc of R3 in line 5 begins at X of line 4, Y of line 2; the drill that is never fed comes to its hole in line 7."""
     hints = made().check(RIGHT.replace("F300\n", "F300\nG3 Y30 R3\n")).hints
