@@ -41,7 +41,7 @@ def text_of(answer: Any) -> str:
         answer = decode(answer)[0]
     if not isinstance(answer, str):
         raise Alarm(f"an answer is a text, a path or a run, got {shown(answer)}")
-    return answer.replace("\r\n", "\n").replace("\r", "\n")
+    return answer.replace("\r\n", "\n").replace("\r", "\n").rstrip("\0\x1a")  # the end of a file, as DOS marks and fills it
 
 
 def graded(exercise: Exercise, answer: Any, tried: Mapping[str, int]) -> Grade:

@@ -74,7 +74,7 @@ def test_a_right_answer_passes_with_all_marks(made):
         lambda text: text.lower(),
         lambda text: text.replace(" ", "   "),
         lambda text: text.replace(" ", ""),
-        lambda text: text.replace("\n", "\r\n"),
+        lambda text: text.replace("\n", "\r\n") + "\x1a\0\0",
         lambda text: text.replace("X45 F300", "X45 F300 // along"),
         lambda text: "\n".join(f"N{10 * k} {line}" if line else line for k, line in enumerate(text.split("\n"), 1)),
         lambda text: text.replace("X45", "X45.000"),
