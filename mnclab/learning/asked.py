@@ -18,8 +18,9 @@ from mnclab.runs.run import Run
 def wishes(exercise: Exercise) -> int:
     """How many things are asked for."""
     asked = exercise.asked
-    blocks = asked.blocks is not None
-    return len(asked.must) + len(asked.must_not) + len(asked.values) + len(asked.cutting) + blocks + bool(asked.cabinet)
+    cutting = sum(max(1, sum(value is not None for value in each[1:])) for each in asked.cutting)
+    codes, blocks = len(asked.must) + len(asked.must_not), asked.blocks is not None
+    return codes + len(asked.values) + cutting + blocks + bool(asked.cabinet)
 
 
 def of_asked(exercise: Exercise, run: Run) -> Iterator[Finding]:
@@ -66,14 +67,10 @@ def _without(code: str) -> Finding:
 
 
 NAMES = {
-    "n": ("speed", "the spindle speed"),
-    "vf": ("feed", "the feed"),
-    "vc": ("surface", "the cutting speed"),
-    "fz": ("per_tooth", "the feed a tooth"),
-    "f": ("per_rev", "the feed a revolution"),
-    "ap": ("depth", "the depth of cut"),
-    "ae": ("width", "the width of cut"),
-}
+    "n": ("speed", "the spindle speed"), "vf": ("feed", "the feed"), "vc": ("surface", "the cutting speed"),
+    "fz": ("per_tooth", "the feed a tooth"), "f": ("per_rev", "the feed a revolution"),
+    "ap": ("depth", "the depth of cut"), "ae": ("width", "the width of cut"),
+}  # fmt: skip
 
 
 def _of_cutting(exercise: Exercise, run: Run) -> Iterator[Finding]:

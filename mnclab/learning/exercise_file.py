@@ -74,17 +74,14 @@ def exercise_of(table: Mapping[str, Any], file: File, path: Path, pupil: str = "
         found["setup"] = replace(found["setup"], stock=found["design"].blank)
     limits = found["setup"].limits
     found["setup"] = replace(found["setup"], limits=replace(limits, travel=limits.travel or TRAVEL))
-    if "asked" in table:
-        found["asked"] = _asked(as_table(table["asked"], "asked"), file)
+    found["asked"] = _asked(as_table(table.get("asked", {}), "asked"), file)
     if "weights" in table:
         found["weights"] = _weights(as_table(table["weights"], "weights"), file)
     elif found["kind"] == "strategy":
         found["weights"] = OF_STRATEGY
-    if "given" in table:
-        found |= _given(as_table(table["given"], "given"), file)
-    if "questions" in table:
-        each = as_tables(table["questions"], "questions")
-        found["questions"] = tuple(_question(as_table(one, "a question"), file, str(k)) for k, one in enumerate(each))
+    found |= _given(as_table(table.get("given", {}), "given"), file)
+    each = enumerate(as_tables(table.get("questions", []), "questions"))
+    found["questions"] = tuple(_question(as_table(one, "a question"), file, str(k)) for k, one in each)
     made = Exercise(**found)
     _check_whole(made, file)
     return made
@@ -177,13 +174,12 @@ def _cut(table: Mapping[str, Any]) -> Cut:
 
 def limits(value: Any, name: str) -> tuple[float, float]:
     """Two numbers, the least and the greatest that are right."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise Alarm(f"{name} must be [least, greatest], got {shown(value)}")
-    for each in value:
+    least, most = value if isinstance(value, list) and len(value) == 2 else (1, 0)
+    for each in (least, most):
         check_number(each, name)
-    if not value[0] <= value[1]:
+    if not least <= most:
         raise Alarm(f"{name} must be [least, greatest], got {shown(value)}")
-    return float(value[0]), float(value[1])
+    return float(least), float(most)
 
 
 def _weights(table: Mapping[str, Any], file: File) -> dict[str, float]:

@@ -67,30 +67,30 @@ def hints_of(
 
 
 def of_alarms(run: Run) -> Iterator[Finding]:
-    """The alarms of a run."""
+    """The alarms of a run, the first with the place where it stopped."""
+    place = next((_spot(run.toolpath.end, row) for row in np.flatnonzero(run.toolpath.is_motion)[:-2:-1]), None)
     for alarm in run.alarms:
         if alarm.severity == "alarm":
             said = f"the control stops: {alarm.message}{f' ({alarm.hint})' * bool(alarm.hint)}"
             line = alarm.span.line if alarm.span else 0
             causes = tuple(of_alarm(run, alarm.message, line))
-            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said,), causes=causes)
+            yield Finding(STOPPED, f"alarm {alarm.message}", line, (said,), place, causes)
+            place = None
 
 
 #: What to look at, by the kind of a collision.
 LOOK = {
     "rapid": "Which move brings the tool here, and should it be at feed, or higher?",
     "plunge": "How can this tool get into the material: a ramp, a helix, a drilled hole?",
-    "solid": "Which tool must have been here before?",
-    "sideways": "Which tool may be fed sideways?",
+    "solid": "Which tool must have been here before?", "sideways": "Which tool may be fed sideways?",
     "shank": "How deep may this tool cut at once, and how far is its edge from the wall above?",
     "holder": "How far does the tool stand out of its holder here?",
     "fixture": "Where is the clamp, and how high must the tool pass over it?",
     "spindle": "Which block should start the spindle, and in which direction?",
-    "travel": "How far does this axis go?",
     "insert": "Which flank of the insert meets the part, or is the pass deeper than its edge is long?",
-    "chuck": "How far are the jaws from Z0?",
+    "travel": "How far does this axis go?", "chuck": "How far are the jaws from Z0?",
     "axis": "What turns about its own axis cuts at X0 alone.",
-}
+}  # fmt: skip
 
 
 OF_TOOL = ("sideways", "shank", "holder", "insert", "axis")  # kinds that another tool would not meet
@@ -140,9 +140,8 @@ def at_the_end(run: Run) -> Iterator[Finding]:
     """Radius compensation that is left on."""
     steps = len(run.steps.block)
     if steps and run.history.value("side", steps - 1):
-        line = int(run.lines()[-1])
         told = "the program ends with radius compensation on"
-        yield Finding(DANGER, "compensation left on", line, (told, f"{told}: which word takes it back, and where?"))
+        yield Finding(DANGER, "compensation left on", int(run.lines()[-1]), (told, f"{told}: which word ends it, and where?"))
 
 
 def of_part(difference: Any, run: Run, had: Mapping[Any, bool], before: int) -> Iterator[Finding]:
@@ -220,7 +219,7 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         told = f"{feature}: it is not as deep as drawn"
         steps = (told, f"{told}: how far below its full diameter is the point?")
         return Finding(PART, f"{feature} depth", line, steps, there, causes)
-    its, unit = f"{feature}: its {row.measure} is", _unit(row.measure)
+    its, unit = f"{feature}: its {row.measure} is", "degrees" if "angle" in row.measure else "mm"
     which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
     told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
     if abs(row.deviation) > FAR:
@@ -286,8 +285,6 @@ def _way(row: Any) -> str:
     return "large" if more else "small"
 
 
-def _unit(measure: str) -> str:
-    return "degrees" if "angle" in measure else "mm"
 
 
 def _at(place: Place | None) -> str:
@@ -305,6 +302,9 @@ def _why(row: Any, run: Run, before: int, line: int) -> str:
         for times, said in ((1, "the radius"), (2, "the diameter"), (4, "twice the diameter")):
             if math.isclose(off, times * tool.radius, abs_tol=0.01):
                 return f"that is {said} of the tool: on which side of the contour does it run?"
+    if tool is not None and tool.kind == "drill" and tool.angle and row.measure == "depth":
+        if math.isclose(off, tool.radius / math.tan(math.radians(tool.angle) / 2), abs_tol=0.01):
+            return "that is the height of the point: how far down does the full diameter go?"
     block = run.program.text.splitlines()[line - 1] if line else ""
     return f"compare {'the cycle and the contour that it mills' if CALLS.search(block) else BLOCKS} with the drawing"
 
@@ -312,7 +312,7 @@ def _why(row: Any, run: Run, before: int, line: int) -> str:
 def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
     """The passes of a turned part's threads that have another pitch than drawn, or miss the groove of the deepest one; its
     depth."""
-    path = run.toolpath
+    path, start = run.toolpath, run.toolpath.start
     for name, thread in zip(design.drawn_names(), design.features) if hasattr(design, "profile") else ():
         if thread.kind != "thread" or (found := passes_of(path, thread)) is None:
             continue  # said by its measures
@@ -321,17 +321,17 @@ def of_threads(design: Any, run: Run, tolerance: float) -> Iterator[Finding]:
         for row, pitch in zip(found.rows, found.pitch):
             if abs(pitch - thread.pitch) > EXACT:
                 told = f"{name}: its pitch is not as drawn"
-                yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _start(path, row))
+                yield Finding(PART, f"{name} pitch", int(path.line[row]), (told, f"{told}: {pitch:g} mm"), _spot(start, row))
         begins = tuple(Cause(_line_of_z(path, row), f"{name}: the {said} pass begins at the Z of this block", True)
                        for row, said in ((found.deepest, "deepest"), (found.rows[-1], "last")))  # fmt: skip
         for row in found.rows[found.beside > 0]:
             told, line = f"{name}: a pass does not run in the groove of the others", _line_of_z(path, row)
             steps = (told, f"{told}: where along Z does it begin?")
-            yield Finding(PART, f"{name} begins", line, steps, _start(path, row), begins)
+            yield Finding(PART, f"{name} begins", line, steps, _spot(start, row), begins)
         if abs(shallow := found.shallow(thread)) > tolerance:
             told, row = f"{name}: its depth is not as drawn", found.deepest
             sized = f"{name}: its depth is {abs(shallow):.3f} mm too {'shallow' if shallow > 0 else 'deep'}"
-            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _start(path, row), own)
+            yield Finding(PART, f"{name} depth", int(path.line[row]), (told, sized), _spot(start, row), own)
 
 
 def _line_of_z(path: Any, row: int) -> int:
@@ -340,6 +340,6 @@ def _line_of_z(path: Any, row: int) -> int:
     return int(path.line[moved[-1] if len(moved) else row])
 
 
-def _start(path: Any, row: int) -> Place:
-    x, y, z = path.start[row].tolist()
+def _spot(ends: Any, row: int) -> Place:
+    x, y, z = ends[row].tolist()
     return x, y, z

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -62,7 +63,7 @@ def give(names: Sequence[str], folder: str | Path = "exercises", pupil: str | No
         if "[model]" in decode(read(known[name], name))[0] and copy.exists() and copy.samefile(known[name]):
             raise Alarm(f"{copy} has the answers: the copy without them would take its place", hint="give another folder: -o")
         if pupil:
-            text = f"pupil = {_quoted(pupil)}\n{text}"
+            text = f"pupil = {json.dumps(pupil, ensure_ascii=False)}\n{text}"
         begun = folder / f"{name}{SUFFIXES[exercise.control] if exercise.answer == 'program' else '.txt'}"
         written = {copy: text, folder / f"{name}.html": page(exercise.title, card(exercise))}
         if not begun.exists():
@@ -72,8 +73,3 @@ def give(names: Sequence[str], folder: str | Path = "exercises", pupil: str | No
                 beside.write_text(content, encoding="utf-8", newline="\n")
             made.append(path)
     return made
-
-
-def _quoted(text: str) -> str:
-    """A text as TOML writes it."""
-    return '"' + "".join(c if c.isprintable() and c not in '"\\' else f"\\u{ord(c):04x}" for c in text) + '"'

@@ -41,7 +41,7 @@ def text_of(answer: Any) -> str:
         answer = decode(answer)[0]
     if not isinstance(answer, str):
         raise Alarm(f"an answer is a text, a path or a run, got {shown(answer)}")
-    return answer.replace("\r\n", "\n").replace("\r", "\n")
+    return answer.replace("\r\n", "\n").replace("\r", "\n").rstrip("\0\x1a")  # the end of a file, as DOS marks and fills it
 
 
 def graded(exercise: Exercise, answer: Any, tried: Mapping[str, int]) -> Grade:
@@ -83,8 +83,8 @@ def beside(exercise: Exercise, findings: list[Finding], run: Run, text: str) -> 
     rows = [row.strip() for row in text.split("\n")]
     tables = [(k, row) for head in TABLES for k, row in enumerate(rows, 1) if row.startswith(head)]
     causes = [Cause(k, f"a number below {row}?") for k, row in tables]
-    return [each._replace(line=_table(text, each, run), steps=tuple(_beside(step, each.line) for step in each.steps),
-                          causes=(*_datum_of(each, run, rows), *causes))
+    return [each._replace(line=_table(text, each, run), causes=(*_datum_of(each, run, rows), *causes),
+                          steps=tuple(step + f" (line {each.line} of the program)" * bool(each.line) for step in each.steps))
             for each in findings]  # fmt: skip
 
 
@@ -99,10 +99,6 @@ def _datum_of(finding: Finding, run: Run, rows: list[str]) -> Iterator[Cause]:
     if known:
         told = f"{'row' if len(known) == 1 else 'rows'} {' and '.join(known)} of [datums]: are X, Y and Z right?"
         yield Cause(min(known.values()), told, True)
-
-
-def _beside(step: str, line: int) -> str:
-    return f"{step} (line {line} of the program)" if line else step
 
 
 def _table(text: str, finding: Finding, run: Run) -> int:
@@ -197,17 +193,12 @@ def blank_as_drawn(exercise: Exercise) -> dict[tuple[str, str, str], bool]:
     lathe = hasattr(exercise.design, "profile")
     before = Cutting.of_nothing(stock, lathe) if exercise.until is None else before_of(exercise)
     part = (Turned if lathe else Milled)(before)
-    return {key_of(row): row.ok for row in found_of(part.compare(exercise.design, exercise.tolerance))}
+    return {row[:3]: row.ok for row in found_of(part.compare(exercise.design, exercise.tolerance))}
 
 
 def found_of(difference: Any) -> Iterator[Any]:
     """The measures of which something is known: what was not measured is neither made nor spoilt."""
     return (row for row in difference.features if row.verdict in ("ok", "out", "not cut"))
-
-
-def key_of(row: Any) -> tuple[str, str, str]:
-    """What names a measure of a drawing."""
-    return row.side, row.feature, row.measure
 
 
 def part_mark(difference: Any, untouched: Mapping[tuple[str, str, str], bool]) -> float:
@@ -216,7 +207,7 @@ def part_mark(difference: Any, untouched: Mapping[tuple[str, str, str], bool]) -
     made: dict[tuple[str, str], list[bool]] = {}
     spoilt = 0
     for row in found_of(difference):
-        if not untouched.get(key_of(row), False):
+        if not untouched.get(row[:3], False):
             made.setdefault((row.side, row.feature), []).append(row.ok)
         elif not row.ok:
             spoilt += 1

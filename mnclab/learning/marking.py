@@ -26,7 +26,7 @@ from mnclab.text.file import decode
 from mnclab.text.given import check_number, fitting, shown, whole
 from mnclab.text.tables import Rows, html_table
 
-SECONDS = 10.0  # of the processor, for one answer
+SECONDS = 5.0  # of the processor, for one answer
 PATIENCE = 60.0  # s on the clock, where the machine is busy, or cannot count the other
 MEMORY = 1 << 30  # bytes
 START = 60.0  # s for a process to begin
@@ -48,10 +48,10 @@ class Mark(NamedTuple):
 
     pupil: str
     exercise: str
-    score: float
-    passed: bool
-    hints: tuple[str, ...] = ()
-    faults: tuple[str, ...] = ()
+    score: float = 0.0
+    passed: bool = False
+    hints: Sequence[str] = ()
+    faults: Sequence[str] = ()
     refused: str = ""
 
     @property
@@ -109,10 +109,10 @@ def mark(
     def one(answer: tuple[str, str, Path, str]) -> Mark:
         pupil, name, path, why = answer
         if why:
-            return Mark(pupil, name, 0.0, False, refused=why)
+            return Mark(pupil, name, refused=why)
         grader = idle.get()
         try:
-            return _mark_of(pupil, name, grader.ask((str(path), str(known[name]), pupil if neighbours else "")))
+            return Mark(pupil, name, **grader.ask((str(path), str(known[name]), pupil if neighbours else "")))
         finally:
             idle.put(grader)
 
@@ -168,12 +168,6 @@ def _inside(folder: Path) -> list[Path]:
 def named(path: Path) -> str:
     """The name of a file or folder, in whatever code page it was packed."""
     return decode(os.fsencode(path.name))[0]
-
-
-def _mark_of(pupil: str, name: str, found: dict[str, Any]) -> Mark:
-    if "refused" in found:
-        return Mark(pupil, name, 0.0, False, refused=found["refused"])
-    return Mark(pupil, name, found["score"], found["passed"], tuple(found["hints"]), tuple(found["faults"]))
 
 
 class _Grader:

@@ -47,11 +47,9 @@ def told(table: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _values(given: Any) -> list[float]:
-    if not isinstance(given, list) or len(given) != 3:
-        raise Alarm(f"a dimension varies as [least, greatest, step], got {shown(given)}")
-    for value in given:
+    least, greatest, step = given if isinstance(given, list) and len(given) == 3 else (0, 0, 0)
+    for value in (least, greatest, step):
         check_number(value, "a dimension that varies")
-    least, greatest, step = given
     if not 0 < step <= greatest - least <= STEPS * step:
         raise Alarm(f"a dimension varies as [least, greatest, step], got {shown(given)}")
     return [least + k * step for k in range(int((greatest - least) / step + 1e-9) + 1)]

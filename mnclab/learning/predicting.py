@@ -19,24 +19,19 @@ EMPTY = re.compile(r"^[ \t]*\d{1,3}[ \t]*[=:][ \t]*$")
 UNITS = "mm мм mm/min мм/мин mm/rev rev/min об/мин s с ° deg".split()
 
 
-def minus(line: str) -> str:
-    """A line with the sign that keyboards have, in place of the one that print has."""
-    return line.replace("−", "-")
-
-
-def numbers_of(text: str) -> tuple[dict[int, float], list[Finding]]:
-    """Numbers by questions, a line each: `1 = 12.5`, and what is wrong with lines that are none of these; comments (#, ;) are
-    left out."""
+def numbers_of(text: str) -> tuple[dict[int, tuple[float, int]], list[Finding]]:
+    """Numbers and their lines by questions, a line each: `1 = 12.5`, and what is wrong with lines that are none of these;
+    comments (#, ;) are left out."""
     found, wrong = {}, []
     for number, line in enumerate(text.split("\n"), 1):
         if not line.strip() or line.strip()[0] in "#;" or EMPTY.match(line):
             continue
-        said = ANSWER.match(minus(line))
+        said = ANSWER.match(line.replace("−", "-"))  # the sign that print has
         if said is None or (said[3] and said[3].lower() not in UNITS):
             told = f"an answer is written as 1 = 12.5, in digits and a point, got {shown(line.strip()[:40])}"
             wrong.append(Finding(STOPPED, f"line {number}", number, (told,)))
         else:
-            found[int(said[1])] = float(said[2].replace(",", "."))
+            found[int(said[1])] = float(said[2].replace(",", ".")), number
     return found, wrong
 
 
@@ -60,14 +55,13 @@ def value_of(question: Question, run: Run) -> float:
 def predicted(exercise: Exercise, text: str, tried: Mapping[str, int]) -> Grade:
     """The grade of predictions: the share that is right."""
     (said, findings), run = numbers_of(text), given_run(exercise)
-    lines = {int(m[1]): k for k, line in enumerate(text.split("\n"), 1) if (m := ANSWER.match(minus(line)))}
     for number, question in enumerate(exercise.questions, 1):
-        if number in said and abs(said[number] - value_of(question, run)) <= question.tolerance:
+        if number in said and abs(said[number][0] - value_of(question, run)) <= question.tolerance:
             continue
         told = f"question {number} is not answered" if number not in said else f"question {number}: another number"
         steps = (told, *(f"question {number}: {each}" for each in question.hints))
         steps = steps if number not in said else steps[1:] or steps
-        line = lines.get(number) or max((lines[k] for k in lines if k < number), default=0)  # after which it is to stand
+        line = max((said[k][1] for k in said if k == number or (k < number and number not in said)), default=0)
         findings.append(Finding(ASKED, f"question {number}", line, steps))
     share = 1 - sum(each.rank == ASKED for each in findings) / len(exercise.questions)
     hints, faults = hints_of(findings, tried)

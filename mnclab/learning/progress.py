@@ -7,7 +7,6 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -91,17 +90,16 @@ class Progress:
 
     def _map(self) -> list[tuple[Any, ...]]:
         """The lessons, as the map of the course has them, those it does not have last: number, title, exercises."""
-        way = re.findall(r"\]\((\d\d)_", _text(LESSONS / "README.md"))
+        way = dict(re.findall(r"\]\((\d\d)_[^)]*\) ([^|]*) \|", _text(LESSONS / "README.md")))
         lessons: dict[str, list[Exercise]] = {lesson: [] for lesson in way}
         for each in exercises():
             lessons.setdefault(each.lesson, []).append(each)
-        return [(escape(lesson), escape(_title(lesson)), some) for lesson, some in lessons.items() if some]
+        return [(escape(lesson), escape(way.get(lesson, "")), some) for lesson, some in lessons.items() if some]
 
     def _box(self, each: Exercise) -> str:
         found = self.done.get(each.id)
-        state = "passed" if found and found["passed"] else "tried" if found else "open"
-        mark = {"passed": "✓", "tried": f"{found['score']:.0%}" if found else "", "open": "○"}[state]
-        colour = {"passed": "#d3f0da", "tried": "#fdebc8", "open": "#f1f1ef"}[state]
+        mark, colour = (f"{found['score']:.0%}", "#fdebc8") if found else ("○", "#f1f1ef")
+        mark, colour = ("✓", "#d3f0da") if self._passed(each.id) else (mark, colour)
         box = f"display:inline-block;margin:2px;padding:1px 6px;border-radius:4px;background:{colour};color:#222"
         return f'<span style="{box}" title="{escape(each.title)}">{escape(each.id)} {mark}</span>'
 
@@ -122,16 +120,6 @@ def _rows(plan: str) -> Iterator[Row]:
 def _text(path: Path) -> str:
     with suppress(OSError, ValueError):
         return path.read_text("utf-8")
-    return ""
-
-
-@cache
-def _title(lesson: str) -> str:
-    """The first heading of a lesson, where the notebooks are there."""
-    for path in LESSONS.glob(f"{lesson}_*.ipynb"):
-        with suppress(OSError, ValueError, LookupError, TypeError):
-            first = "".join(json.loads(path.read_text("utf-8"))["cells"][0]["source"])
-            return first.partition("\n")[0].lstrip("# ")
     return ""
 
 

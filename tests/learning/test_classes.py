@@ -154,7 +154,7 @@ def test_a_folder_for_pupils_has_no_answers_and_keeps_what_they_began(tmp_path):
         give(["mnc-77"], tmp_path)
 
 
-def test_a_pupil_grades_his_own_drawing_from_the_shell(tmp_path, monkeypatch):
+def test_a_pupil_grades_his_own_drawing_from_the_shell(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     names = ("Anna", "Boris", "Vera", "Georgi", "Dina")
     found = set()
@@ -166,6 +166,7 @@ def test_a_pupil_grades_his_own_drawing_from_the_shell(tmp_path, monkeypatch):
         model.write_text(MODEL)
         own = load(tmp_path / name / f"{NAME}.toml").check(MODEL).passed
         assert shell.main(["grade", str(model)]) == (0 if own else 1)
+        assert f"graded by {model.with_suffix('.toml')}, which lies beside the answer" in capsys.readouterr().err
     assert len(found) > 1
 
 

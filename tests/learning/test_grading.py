@@ -76,7 +76,7 @@ def test_a_right_answer_passes_with_all_marks(made):
         lambda text: text.lower(),
         lambda text: text.replace(" ", "   "),
         lambda text: text.replace(" ", ""),
-        lambda text: text.replace("\n", "\r\n"),
+        lambda text: text.replace("\n", "\r\n") + "\x1a\0\0",
         lambda text: text.replace("X45 F300", "X45 F300 // along"),
         lambda text: "\n".join(f"N{10 * k} {line}" if line else line for k, line in enumerate(text.split("\n"), 1)),
         lambda text: text.replace("X45", "X45.000"),
@@ -224,6 +224,14 @@ def test_speed_feed_and_pecks_can_be_asked_for(made, wanted, right):
     assert made(f"[asked]\ncutting = [{{tool = {wanted}}}]").check(RIGHT).passed is right
 
 
+@pytest.mark.parametrize(("most", "share"), [((999, 299, 3.9), 0), ((1000, 299, 3.9), 1 / 3), ((1000, 301, 3.9), 2 / 3)])
+def test_each_quantity_of_a_tool_counts_alike(made, most, share):
+    """S1000 F300, 4 mm deep: of speed, feed and depth none, one and two are right; none is worth less than nothing."""
+    n, vf, ap = most
+    grade = made(f"[asked]\ncutting = [{{tool = 1, n = [0, {n}], vf = [0, {vf}], ap = [0, {ap}]}}]").check(RIGHT)
+    assert grade.points["asked"] == pytest.approx(share)
+
+
 def test_a_pass_on_a_lathe_is_as_deep_as_its_way_not_as_the_shoulder_at_its_end():
     """From 20 to 17 mm along 24.8 mm; then from 17.2 mm, 0.2 along 25 mm of 27, and 3 mm of the shoulder along 0.2."""
     text = "T1\nG97 S500 G95 F0.2 M3\nG00 X17.2 Z2\nG01 Z-24.8\nX22\nG00 Z2\nX17\nG01 Z-25\nX22\n"
@@ -291,6 +299,12 @@ def test_compensation_in_the_air_is_none(made, code, change):
     assert not grade.passed and grade.hints[0].text == f"the task asks for {code}, and it is not on where the tool cuts"
 
 
+def test_an_alarm_has_the_place_where_the_program_stopped(made):
+    """Line 6 is refused, line 5 went to X45 Y20 Z5; nothing moved before line 1."""
+    assert made().check(RIGHT.replace("G0 Z5\nT2", "G0 Z5\nG0 X1 Q4\nT2")).hints[0].place == (45, 20, 5)
+    assert made().check("G0 X5 Q3\n" + RIGHT).hints[0].place is None
+
+
 def test_names_are_no_codes():
     text = 'BEGIN PGM RL MM\nTOOL CALL 1 Z S1600\nLBL "CHF"\nCALL PGM RND\nL X+5 R0 F100 M3\nEND PGM RL MM\n'
     lines = list(executed(mnclab.run(text, "tnc-620", files={"RND.h": "BEGIN PGM RND MM\nL Y+5\nEND PGM RND MM\n"})))
@@ -312,6 +326,13 @@ def test_a_hole_that_a_lathe_drills_too_shallow_is_told_at_its_block():
     text = exercise.solution()
     hint = exercise.check(text.replace("G73 Z-27.004", "G73 Z-24")).hints[0]
     assert text.split("\n")[hint.line - 1].startswith("G73") and hint.text == "core hole: it is not as deep as drawn"
+
+
+def test_a_hole_that_is_too_shallow_by_the_point_of_the_drill_is_told_so(made):
+    text = RIGHT.replace(f"Z-{6 + HOLE_DEPTH:.4f}", "Z-6")
+    (hint, *_), line = made().check(text, tried={"hole depth": 9}).hints, text.split("\n").index("G1 Z-6 F80") + 1
+    assert hint.line == line and hint.text.endswith("too shallow; that is the height of the point: how far down does the full "
+                                                    "diameter go?")  # fmt: skip
 
 
 def test_where_an_arc_begins_and_what_only_a_rapid_passes_over_are_named(made):

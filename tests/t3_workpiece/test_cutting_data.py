@@ -145,3 +145,11 @@ def test_the_notes_name_what_stands_in_the_table():
     text = "M3 S500 T1\nG95 F0.2\nG00 X18 Z2\nG01 Z-30\nG00 X40\n"
     run = mnclab.run(text, "jnc-t01", Setup(tools={1: turned}, stock=mnclab.blank.cylinder(20, -60, 0)))
     assert "; ap is the most of a row." in repr(run.cutting_data())
+
+
+def test_speeds_and_feeds_alone_are_those_of_the_rows_that_cut():
+    """S2000 F400 with four teeth; the plunge at F100 stands beside the blank."""
+    found = milled(5, -3)(material=False)
+    assert (found[0].speed, found[0].feed, found[0].per_tooth) == ((2000, 2000), (400, 400), (0.05, 0.05))
+    assert (found[0].depth, found[0].width, found[0].chip, found[0].rate) == (None, None, None, None)
+    assert "Q were not asked for." in repr(found) and "Q most" not in repr(found)

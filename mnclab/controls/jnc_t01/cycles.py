@@ -126,7 +126,7 @@ def check_removal(cycle: LongitudinalTurning | Facing, m: Machine) -> Iterator[t
         if start == end:
             yield f"end_{name}", f"must differ from the {axis} of the start, got {end / factor:.10g}"
         if taper is not None and not min(start, end) <= taper <= max(start, end):
-            between = f"{axis}{start / factor:.10g} and {axis}{end / factor:.10g}"
+            between = f"{axis}{start / factor:.10g} (the start) and {axis}{end / factor:.10g} ({axis} of this block)"
             yield f"taper_{name}", f"must lie between {between}, got {taper / factor:.10g}"
         if axis == infeed and cycle.depth is not None and abs(end - start) > MOST * cycle.depth:
             yield "depth", f"{cycle.depth:g} divides {abs(end - start):g} mm into more than {MOST} passes"

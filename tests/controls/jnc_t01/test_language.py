@@ -130,7 +130,7 @@ def test_x_as_a_diameter():
                 getattr(one.toolpath, name), getattr(other.toolpath, name), rtol=0, atol=1e-12, equal_nan=True
             )
     alarm = obeyed("F9 G77 X40 Z-9 U120", settings=on).alarms[0]
-    assert "must lie between X100 and X40, got 120" in alarm.message
+    assert "must lie between X100 (the start) and X40 (X of this block), got 120" in alarm.message
 
 
 def test_homing():
