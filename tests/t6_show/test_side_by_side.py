@@ -398,3 +398,15 @@ def test_a_radius_that_a_cycle_refuses_is_no_stop_of_the_run():
     assert run.ok
     found = run.largest_radius()
     assert float(found) == 6 and "where the run stopped" not in str(found)
+
+
+@pytest.mark.parametrize("begin", ["G0 X0 Y0 Z2", "G0 X0 Y0 Z50\nX5\nX0 Z2"])
+def test_the_way_from_home_stays_in_its_frame(begin):
+    """It leads to the place where the program begins, 1 mm below the upper edge, or 50 mm above it: the names stay free."""
+    text = f"T1 S1000 M3\n{begin}\nG1 Z-2 F100\nX10\nG0 Z50\n"
+    one = mnc.run(text, "mnc", mnc.Setup(stock=((-5, -5, -5), (15, 5, 0))))
+    picture = mnc.plot_runs({"one": one, "other": one}, view="XZ", legend=False)
+    picture.draw(picture.canvas.get_renderer())
+    red, green, blue, _ = np.moveaxis(np.asarray(picture.canvas.buffer_rgba()).astype(int), 2, 0)
+    rows, _ = np.nonzero((red > 150) & (green < 90) & (blue < 90))
+    assert len(rows) and picture.bbox.height - rows.min() < picture.axes[0].bbox.y1 + 1

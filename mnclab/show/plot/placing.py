@@ -263,4 +263,4 @@ def draw_arrival(ax: Axes, view: View, place: Array, size: float) -> None:
         return
     home, end = arrival(view, place, size)[:, [view.right, view.up]].tolist()
     look = {"arrowstyle": "-|>", "color": colours.RAPID.colour, "linewidth": 1.2, "linestyle": (0, (3, 1.5)), "shrinkB": 4}
-    ax.annotate("", end, home, arrowprops=look, zorder=3.3, annotation_clip=False)
+    ax.annotate("", end, home, arrowprops=look | {"clip_box": ax.bbox}, zorder=3.3)  # none where the place is cut off
