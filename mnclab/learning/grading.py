@@ -205,12 +205,10 @@ def part_mark(difference: Any, untouched: Mapping[tuple[str, str, str], bool]) -
     """The mean of the features' marks: the share of the measures to be made that are within their limits, less what the blank
     had and the program spoilt."""
     made: dict[tuple[str, str], list[bool]] = {}
-    spoilt = 0
+    had: dict[tuple[str, str], list[bool]] = {}
     for row in found_of(difference):
-        if not untouched.get(row[:3], False):
-            made.setdefault((row.side, row.feature), []).append(row.ok)
-        elif not row.ok:
-            spoilt += 1
+        (had if untouched.get(row[:3], False) else made).setdefault(row[:2], []).append(row.ok)
+    spoilt = sum(1 - float(np.mean(each)) for each in had.values())
     if not made:
         return float(not spoilt)
-    return max(0.0, (sum(map(np.mean, made.values())) - spoilt) / len(made))
+    return float(max(0.0, (sum(map(np.mean, made.values())) - spoilt) / len(made)))

@@ -283,6 +283,12 @@ def test_a_groove_too_wide_costs_itself_and_what_was_not_measured_nothing():
     assert grade.points["part"] == pytest.approx(2 / 3) and grade.faults == ("groove width",)
 
 
+def test_what_is_spoilt_costs_its_share():
+    """Two of four measures of the groove are right, and one of three of the profile, which was there, is spoilt."""
+    exercise = mnclab.exercise("nc-31-22")
+    assert exercise.check(exercise.solution().replace("Z-4200*", "Z-4250*")).points["part"] == pytest.approx(1 / 2 - 1 / 3)
+
+
 def test_a_thread_that_is_cut_too_deep_is_told_as_one():
     exercise = mnclab.exercise("jnc-t01-09")
     text = exercise.solution().replace("X9.08\n", "X8.9\n")
