@@ -410,3 +410,14 @@ def test_the_way_from_home_stays_in_its_frame(begin):
     red, green, blue, _ = np.moveaxis(np.asarray(picture.canvas.buffer_rgba()).astype(int), 2, 0)
     rows, _ = np.nonzero((red > 150) & (green < 90) & (blue < 90))
     assert len(rows) and picture.bbox.height - rows.min() < picture.axes[0].bbox.y1 + 1
+
+
+def test_rapids_on_one_line_are_drawn_once_over_another_program():
+    """Down 18 mm at X0 and Y0, a cut, up 23 on the same line at its end; there and back in dashes would be a solid line."""
+    text = "G17 G90 G54 T1 S800 M3\nG0 X0 Y0 Z20\nZ2\nG1 Z-3 F200\nX40\nX0\nG0 Z20\nX9\nX0\n"
+    one, other = (mnc.run(each, "mnc") for each in (text, text.replace("X40", "X41")))
+    *_, side = mnc.diff(one, other).plot(view="XZ").axes
+    (line,) = [each for each in side.lines if each.get_label() == "rapid"]
+    ends = np.array(line.get_xydata())
+    ways = [np.ptp(ends[k : k + 2], axis=0) for k in range(len(ends) - 1) if np.isfinite(ends[k : k + 2]).all()]
+    assert np.sum(ways, axis=0) == pytest.approx((9, 23))

@@ -128,7 +128,7 @@ def write(ax: Axes, view: View, drawing: PathDrawing, low: Array, high: Array) -
     moved, divided = beside(ax, drawing.strokes, drawing.classes, axes)
     for line in ax.lines:
         if line.get_label() == colours.RAPID.name:
-            line.set_data(*once(ax, moved, divided, axes).T)
+            line.set_data(*once(ax, moved.xyz, divided.group, axes).T)
     occupied = [xyz[:, axes] for mark, xyz in drawing.marks if mark is colours.TOUCH]
     strokes = parted(moved.xyz, np.minimum(divided.group, 0), 1)
     if drawing.home:
@@ -208,25 +208,26 @@ SHARED = 3.0  # points of the way over another at least
 TURN, ASIDE = 1e-3, 0.15  # rad and points, by which strokes on one line may differ
 
 
-def once(ax: Axes, drawn: Strokes, found: Classes, axes: list[int]) -> Array:
-    """The rapids of a view as one line (k, 2) broken by nan, none of it over another; the limits of `ax` are final."""
-    rapids = np.flatnonzero(found.group == RAPID)
+def once(ax: Axes, xyz: Array, group: NDArray[np.integer], axes: list[int]) -> Array:
+    """The rapids of a view, lines that end in points (n, 3) of their group (n,), as one line (k, 2) broken by nan, none of it
+    over another; the limits of `ax` are final."""
+    rapids = np.flatnonzero(group == RAPID)
     figure = ax.get_figure(root=True)
-    flat = ax.transData.transform(drawn.xyz[:, axes]) / ((figure.dpi if figure else 72) / 72)
+    flat = ax.transData.transform(xyz[:, axes]) / ((figure.dpi if figure else 72) / 72)
     rapids = rapids[np.hypot(*(flat[rapids] - flat[rapids - 1]).T) > LONG]
     if not len(rapids):
-        return parted(drawn.xyz, found.group, 1)[0][:, axes]
+        return parted(xyz, group, 1)[0][:, axes]
     low, high, ends = _on_lines(flat, rapids)
     order = np.argsort(low)
     reached = np.maximum.accumulate(high[order])
     runs = np.split(order, np.flatnonzero(low[order][1:] > reached[:-1] - SHARED) + 1)
-    group, pieces = found.group.copy(), []
+    group, pieces = group.copy(), []
     for run in runs:
         if len(run) > 1:
             group[rapids[run]] = -1
             whole = [ends[run[0], 0], ends[run[np.argmax(high[run])], 1]]
-            pieces.append(np.concatenate([np.full((1, 2), np.nan), drawn.xyz[whole][:, axes]]))
-    line = np.concatenate([parted(drawn.xyz, group, 1)[0][:, axes], *pieces])
+            pieces.append(np.concatenate([np.full((1, 2), np.nan), xyz[whole][:, axes]]))
+    line = np.concatenate([parted(xyz, group, 1)[0][:, axes], *pieces])
     return line[1:] if len(line) and np.isnan(line[0]).all() else line
 
 

@@ -12,10 +12,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 
 from mnclab.geometry.regions import Region
-from mnclab.path.toolpath import Array, Kind, Toolpath
+from mnclab.path.toolpath import Array, Kind, Mask, Toolpath
 from mnclab.show import looks
 from mnclab.show.plot import colours
 from mnclab.show.plot.colours import RAPID, LineStyle, Mark
+from mnclab.show.plot.layers import once
 from mnclab.show.plot.path import ROOM, goes_out, plot_run, with_rapids
 from mnclab.show.plot.picture import (
     LINE,
@@ -323,12 +324,21 @@ def laid_over(
         if gap:
             ends = np.stack(gap)[:, [each.right, each.up]]
             ax.add_line(Line2D(*ends.T, color=APART.colour, linewidth=1.2, zorder=APART.order))
-        drawn = [Line2D(xyz[..., each.right], xyz[..., each.up], **look.style()) for look, xyz in lines]
+        drawn = [Line2D(*_seen(ax, look, xyz, [each.right, each.up]).T, **look.style()) for look, xyz in lines]
         drawn += [Line2D([place[each.right]], [place[each.up]], **mark.style()) for mark, place in marks]
         for artist in drawn:
             ax.add_line(artist)
     write_legend(picture, [each for each in drawn if not str(each.get_label()).startswith("_")])
     return picture
+
+
+def _seen(ax: Axes, look: LineStyle, xyz: Array, axes: list[int]) -> Array:
+    """A line (n, 3) broken by nan as a view shows it (k, 2): dashes over dashes would close their gaps."""
+    if look.name not in (RAPID.name, FIRST_RAPID.name) or not len(xyz):
+        return xyz[..., axes]
+    gap: Mask = np.asarray(np.isnan(xyz).any(axis=1))
+    joined = ~gap & ~np.append(True, gap[:-1])
+    return once(ax, np.nan_to_num(xyz), np.where(joined, 0, -1), axes)
 
 
 # The spot where two programs differ: the paths about it, and both places.
