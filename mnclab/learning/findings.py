@@ -271,8 +271,9 @@ FAR = 1e3  # mm: a radius that is further off is read off a straight line
 
 
 def _most_telling(rows: list[Any]) -> Any:
-    """The row to begin with: one whose line is known, a measure rather than the form."""
-    return min(rows, key=lambda row: (row.line == 0, math.isnan(row.deviation), row.measure == "form",
+    """The row to begin with: one whose line is known, a measure rather than the form, if it is not far less off than that."""
+    form = max((abs(row.deviation) for row in rows if row.measure == "form"), default=0.0)
+    return min(rows, key=lambda row: (row.line == 0, math.isnan(row.deviation), abs(row.deviation) < form / 10, row.measure == "form",
                                       ORDER.index(row.measure) if row.measure in ORDER else len(ORDER)))  # fmt: skip
 
 

@@ -58,6 +58,7 @@ def of_row(run: Run, row: int, places: Sequence[Place | None], first: int | str 
         if name.startswith(FRAME) and (line := line_of(run, name, step)) > 1:
             yield Cause(line, f"line {of} works with what this block sets", True)
     names = ("cycle", "Q1", "tool") if path.label[row] else ("tool",)  # Q1: the depth of contour cycles
+    names = ("pattern", *names) if re.search(r"\bPAT\b", dict(code_of(run)).get(of, "")) else names
     said = [(line_of(run, name, step), name) for name in names]
     told = [Cause(line, f"line {of} works with the {name} of this block", name == first) for line, name in said if line]
     if path.label[row] and first not in (0, 1) or first == "tool":

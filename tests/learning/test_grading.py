@@ -12,6 +12,7 @@ from mnclab.learning.asked import executed, first_line
 from mnclab.learning.exercise import Question
 from mnclab.learning.exercise_file import load
 from mnclab.learning.predicting import value_of
+from mnclab.runs.causes import of_row
 from mnclab.runs.material import depths_of_passes
 
 SQUARE = """
@@ -266,6 +267,30 @@ def test_a_pass_that_is_too_deep_is_told_and_of_threads_the_pass_that_begins_els
     assert (rows[4], rows[38]) == ("G00 X12.5 Z2", "Z4")
     assert 6 in named(exercise, text, (5, "G00 X11.5 Z2"))  # its pass
     assert 39 in named(exercise, text, (39, "Z5"))
+
+
+def test_a_form_that_is_far_off_is_told_before_a_measure_that_is_hardly_beside_its_limits():
+    """The last side of the second hook ends a millimetre early; where its middle is moves by hundredths."""
+    exercise = mnclab.exercise("mnc-03")
+    rows = exercise.solution().split("\n")
+    assert rows[13] == "N140 X18"
+    rows[13] = "N140 X19"
+    hint = exercise.check("\n".join(rows)).hints[0]
+    assert hint.line == 14 and "its y is" not in hint.text
+
+
+def test_where_a_pattern_is_drilled_its_definition_is_a_cause():
+    text = """BEGIN PGM A MM
+TOOL CALL 2 Z S1000
+PATTERN DEF POS1 (X+25 Y+33.5 Z+0)
+CYCL DEF 200 DRILLING Q200=2 Q201=-20 Q206=150 Q202=5 Q210=0 Q203=+0 Q204=20 Q211=0 Q395=0
+L Z+100 R0 FMAX M3
+CYCL CALL PAT FMAX
+END PGM A MM
+"""
+    run = mnclab.run(text, "tnc-620", tools={2: mnclab.Tool(radius=3)})
+    deepest = int(run.toolpath.end[:, 2].argmin())
+    assert {3, 4, 6} <= {each.line for each in of_row(run, deepest, [])}
 
 
 def test_a_number_that_variables_bring_is_told_where_it_was_typed():
