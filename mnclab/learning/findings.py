@@ -58,10 +58,9 @@ def hints_of(
     order = [k for k in sorted(range(len(hints)), key=ranks.__getitem__) if ranks[k] < 4][:HINTS]
     named, chosen = {hints[k].line for k in order}, []
     for k in order:
-        own = found[k].causes if k < len(told) else ()
-        other = next((c for c in own if c.line and all(abs(c.line - line) > 1 for line in named)), None)
-        if other:
-            named.add(other.line)
+        own = (c for each in found[k : k + 1] for c in each.causes if c.line)  # none of a cause's
+        other = next((c for c in own if all(abs(c.line - line) > 1 for line in named)), None)
+        named |= {other.line} if other else set()
         chosen.append(hints[k]._replace(text=f"{hints[k].text} [or in line {other.line}: {other.text}]") if other else hints[k])
     return tuple(chosen), kinds
 
@@ -221,9 +220,8 @@ def _of_feature(feature: str, rows: list[Any], run: Run, before: int, begun: boo
         return Finding(PART, f"{feature} depth", line, steps, there, causes)
     its, unit = f"{feature}: its {row.measure} is", "degrees" if "angle" in row.measure else "mm"
     which = f" ({row.nominal:g} {unit} on the drawing)" if row.measure[-1:].isdigit() else ""  # its number is not on it
-    told, sized = f"{its} not as drawn{which}", f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
-    if abs(row.deviation) > FAR:
-        sized = told
+    told = f"{its} not as drawn{which}"
+    sized = told if abs(row.deviation) > FAR else f"{its} {abs(row.deviation):.3f} {unit} too {_way(row)}{which}"
     return Finding(PART, f"{feature} {row.measure}", line, (told, sized, f"{sized}; {why}"), there, causes)
 
 
@@ -264,7 +262,7 @@ def _tool_of(row: Any, run: Run, before: int) -> Any:
     return tools.get(int(numbers[k])) if 0 <= k < len(numbers) else None
 
 
-ORDER = ("depth", "x", "y", "length", "width", "diameter")  # measures that say more than "form" does
+ORDER = dict(depth=0, x=1, y=2, length=3, width=4, diameter=5)  # measures that say more than "form" does
 
 
 FAR = 1e3  # mm: a radius that is further off is read off a straight line
@@ -273,8 +271,8 @@ FAR = 1e3  # mm: a radius that is further off is read off a straight line
 def _most_telling(rows: list[Any]) -> Any:
     """The row to begin with: one whose line is known, a measure rather than the form, if it is not far less off than that."""
     form = max((abs(row.deviation) for row in rows if row.measure == "form"), default=0.0)
-    return min(rows, key=lambda row: (row.line == 0, math.isnan(row.deviation), abs(row.deviation) < form / 10, row.measure == "form",
-                                      ORDER.index(row.measure) if row.measure in ORDER else len(ORDER)))  # fmt: skip
+    return min(rows, key=lambda row: (row.line == 0, math.isnan(row.deviation), abs(row.deviation) < form / 10,
+                                      row.measure == "form", ORDER.get(row.measure, len(ORDER))))  # fmt: skip
 
 
 def _way(row: Any) -> str:
