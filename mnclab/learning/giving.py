@@ -63,7 +63,9 @@ def give(names: Sequence[str], folder: str | Path = "exercises", pupil: str | No
         if "[model]" in decode(read(known[name], name))[0] and copy.exists() and copy.samefile(known[name]):
             raise Alarm(f"{copy} has the answers: the copy without them would take its place", hint="give another folder: -o")
         if pupil:
-            text = f"pupil = {json.dumps(pupil, ensure_ascii=False)}\n{text}"
+            if any("\ud800" <= c <= "\udfff" for c in pupil):
+                raise Alarm("the name of a pupil has a byte that is no letter", hint="write names in UTF-8")
+            text = f"pupil = {json.dumps(pupil, ensure_ascii=False)}\n{text}".replace("\x7f", "\\u007f")  # which TOML has not
         begun = folder / f"{name}{SUFFIXES[exercise.control] if exercise.answer == 'program' else '.txt'}"
         written = {copy: text, folder / f"{name}.html": page(exercise.title, card(exercise))}
         if not begun.exists():

@@ -171,8 +171,7 @@ def of_diameters(exercise: Exercise, run: Run, difference: Any) -> Iterator[Find
         return
     meant = run.again(run.setup.with_settings(diameter=True))
     if meant.ok and all(row.ok for row in part_of(exercise, meant).compare(exercise.design, exercise.tolerance).features):
-        told = "X is a radius here, and this program writes diameters"
-        yield Finding(PART, "diameters", 0, (told,))
+        yield Finding(PART, "diameters", 0, ("X is a radius here, and this program writes diameters",))
 
 
 def score(exercise: Exercise, points: Mapping[str, float]) -> float:

@@ -170,6 +170,17 @@ def test_a_pupil_grades_his_own_drawing_from_the_shell(tmp_path, monkeypatch, ca
     assert len(found) > 1
 
 
+@pytest.mark.parametrize("pupil", ["x\x7fy", 'q"w\\e', "t\tb\nz", "Анна\xa0Иванова 😀"])
+def test_the_name_of_a_pupil_is_read_as_it_was_given(tmp_path, pupil):
+    copy = next(path for path in give(["mnc-03"], tmp_path, pupil) if path.suffix == ".toml")
+    assert tomllib.loads(copy.read_text("utf-8"))["pupil"] == pupil
+
+
+def test_a_name_that_no_file_can_hold_is_refused(tmp_path):
+    with pytest.raises(Alarm, match="byte that is no letter"):
+        give(["mnc-03"], tmp_path, "a\udcffb")
+
+
 def test_a_teachers_own_file_is_given_and_graded(tmp_path, monkeypatch):
     """His answers stay with him, and his folder is no place for the copies."""
     monkeypatch.chdir(tmp_path)
