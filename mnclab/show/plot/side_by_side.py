@@ -44,6 +44,7 @@ from mnclab.text.given import choice, fitting, shown, whole
 
 LEFT, BETWEEN, RIGHT, TITLE, LOW = 0.62, 0.22, 0.16, 0.26, 0.48  # inches
 TITLES = (SMALL + 1, SMALL, SMALL - 1, SMALL - 2)  # points: the largest at which no word is broken
+NOTE = 0.5  # inches of what stands beside a name, such as ≤ 180°
 TALLEST = 5.0  # of one view
 SLIM = 0.4  # of its height: what a view is wide at least
 ROOMY = 2.3  # of a view: above it there is room for words beside its name
@@ -66,8 +67,8 @@ def panels(
     letters = next((each for each in TITLES if len(broken(longest, wide, each)) == 1), SMALL + 1)
     titles = [broken(name, wide, letters) for name in names]
     for k, lines in enumerate(titles if notes else ()):  # beside the last line, which is left to them where it has no room
-        if len(broken(lines[-1], wide - 0.4, letters)) > 1:
-            shorter = broken(names[k], wide - 0.4, letters)
+        if len(broken(lines[-1], wide - NOTE, letters)) > 1:
+            shorter = broken(names[k], wide - NOTE, letters)
             titles[k] = shorter if " ".join(shorter) == names[k] else [*lines, ""]
     over = [TITLE + LINE * (max(map(len, titles[k : k + columns])) - 1) for k in range(0, len(names), columns)]
     top = 0.08 + legend_height(len(legend_rows([each.get_label() for each in legend], width)))
